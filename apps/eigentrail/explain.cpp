@@ -64,12 +64,13 @@ void print_data(std::FILE* to, const Model& model) {
 void print_effects(std::FILE* to, const Model& model) {
   std::vector<std::vector<std::string>> active;
   if (model.description().effects.size() > 1) {
-    active.push_back({"  effect", "number", "formulas per linearization", ""});
+    active.push_back({"  effect", "number", "records", "directions", "operations", ""});
   }
   std::string absent;
   for (const Effect& effect : model.description().effects) {
     if (effect.count > 0) {
-      active.push_back({"  " + effect.name, std::to_string(effect.count), std::to_string(effect.evaluations),
+      active.push_back({"  " + effect.name, std::to_string(effect.count), std::to_string(effect.records),
+                        std::to_string(effect.directions), std::to_string(effect.operations),
                         effect.description});
     } else {
       absent += (absent.empty() ? "" : ", ") + effect.name;

@@ -23,10 +23,6 @@ int read_whole_number(TableReader& table, const std::string& key, int otherwise,
   return static_cast<int>(n);
 }
 
-bool is_zero(const Expression& e) {
-  return e.is_constant() && e.evaluate(std::span<const double>()) == 0.0;
-}
-
 class BeamBuilder {
  public:
   BeamBuilder(Draft& draft, TableReader& table, const BeamDesign& design)
@@ -77,11 +73,13 @@ class BeamBuilder {
     MassDistribution masses;
     masses.size = 4;
     for (int i = 0; i < 4; ++i) masses.carriers[static_cast<std::size_t>(i)] = draft_.point_place(triple + i);
-    masses.mass = draft_.quantity(moments[0]);
-    const Quantity none = draft_.quantity(0.0);
-    masses.first = {none, draft_.quantity(moments[1]), draft_.quantity(moments[2])};
-    masses.second = {none, draft_.quantity(moments[3]), draft_.quantity(moments[4]), none,
-                     none, draft_.quantity(moments[5])};
+    const auto moment = [&](int i) {
+      return draft_.quantity_unless_zero(moments[static_cast<std::size_t>(i)]);
+    };
+    const Quantity none;
+    masses.mass = moment(0);
+    masses.first = {none, moment(1), moment(2)};
+    masses.second = {none, moment(3), moment(4), none, none, moment(5)};
     return masses;
   }
 
@@ -190,7 +188,7 @@ class BeamBuilder {
         S[i] = S[i] + Expression(part) * section_.stiffness[station][i];
     }
     for (std::size_t i = 0; i < section_entries; ++i) {
-      if (!is_zero(S[i])) section.stiffness[i] = draft_.quantity(S[i]);
+      section.stiffness[i] = draft_.quantity_unless_zero(S[i]);
     }
   }
 

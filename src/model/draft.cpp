@@ -35,6 +35,11 @@ Quantity Draft::quantity(const Expression& expression) {
   return {expression, static_cast<int>(data.quantities.size()) - 1};
 }
 
+Quantity Draft::quantity_unless_zero(const Expression& expression) {
+  const bool zero = expression.is_constant() && expression.evaluate(std::span<const double>()) == 0.0;
+  return zero ? Quantity() : quantity(expression);
+}
+
 bool Draft::is_left_out(std::string_view effect) const {
   return std::find(request.without.begin(), request.without.end(), effect) != request.without.end();
 }

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "eigentrail/model/build.hpp"
-#include "model/assembly.hpp"
 #include "model/expression_vector.hpp"
 #include "model/multiblade/bladed_rotor_draft.hpp"
+#include "model/multibody_data.hpp"
 
 namespace eigentrail {
 
@@ -79,6 +79,8 @@ struct Draft {
   TableReader reader(const Table& table, const std::string& label);
 
   Quantity quantity(const Expression& expression);
+  /// The same, but without slot if it is zero for all values of the parameters.
+  Quantity quantity_unless_zero(const Expression& expression);
   /// Whether an effect is switched off (--without).
   bool is_left_out(std::string_view effect) const;
   /// The quantity that multiplies the forces of an effect; without slot if strengths are not requested.

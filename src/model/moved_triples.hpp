@@ -3,31 +3,26 @@
 
 #include <vector>
 
+#include "model/path_values.hpp"
 #include "model/trim.hpp"
 
 namespace eigentrail {
-
-template <class Base>
-Vec3<Base> triple_of(const std::vector<Base>& coordinates, int triple) {
-  const auto first = 3 * static_cast<std::size_t>(triple);
-  return {coordinates[first], coordinates[first + 1], coordinates[first + 2]};
-}
 
 /// The virtual motion of a load at a point of the path.
 template <class Base>
 class MovedTriples {
  public:
-  MovedTriples(const VirtualMotion& motion, const PathValues<Base>& values)
-      : axis_(values.vector(motion.axis)) {
+  using Values = PathValues<typename Base::Coefficient>;
+
+  MovedTriples(const VirtualMotion& motion, const Values& values) : axis_(values.vector(motion.axis)) {
     const bool turns = motion.about.has_value();
     const Vec3<Base> centre = turns ? values.vector(*motion.about) : Vec3<Base>(Vec3<Base>::Zero());
     const auto add = [&](int triple, const Vec3<Base>& arm) {
       moved_.push_back({triple, arm, turns ? Vec3<Base>(axis_.cross(arm)) : axis_});
     };
-    for (const int triple : motion.places)
-      add(triple, values.triples[static_cast<std::size_t>(triple)] - centre);
+    for (const int triple : motion.places) add(triple, values.triple(triple) - centre);
     if (!turns) return;
-    for (const int triple : motion.directions) add(triple, values.triples[static_cast<std::size_t>(triple)]);
+    for (const int triple : motion.directions) add(triple, values.triple(triple));
   }
 
   /// Calls visit(triple, w).
@@ -37,11 +32,11 @@ class MovedTriples {
   }
 
   /// Adds the derivative of the work of constant forces on w: that of e by the arm, and that of the arm.
-  void add_gradient(const VirtualMotion& motion, const PathValues<Base>& values, const Vector& force,
+  void add_gradient(const VirtualMotion& motion, const Values& values, const Vector& force,
                     Vector& of_x) const {
     const auto add = [&of_x, &values](const Term& term, const Eigen::Vector3d& gradient) {
-      for (int i = 0; i < 3; ++i)
-        of_x[3 * term.triple + i] += values.times(term.weight, Base(gradient[i]))[0];
+      const double weight = term.weight.slot < 0 ? 1.0 : values.number(term.weight.slot)[0];
+      of_x.segment<3>(3 * term.triple) += weight * gradient;
     };
     const auto number = [](const Vec3<Base>& v) { return Eigen::Vector3d(v[0][0], v[1][0], v[2][0]); };
     const Eigen::Vector3d axis = number(axis_);

@@ -79,17 +79,25 @@ class TracedRoles {
 
 }  // namespace
 
-Multibody::Multibody(ModelDescription description, MultibodyData data, std::vector<Expression> guess)
-    : Model(std::move(description)), data_(std::move(data)), guess_(std::move(guess)) {}
+ModelDescription with_costs(ModelDescription description,
+                            std::initializer_list<const RecordedEquations*> equations) {
+  for (const RecordedEquations* part : equations) add_costs(*part, description.effects);
+  return description;
+}
+
+Multibody::Multibody(ModelDescription description, Assembly assembly, std::vector<Expression> guess)
+    : Model(with_costs(std::move(description), {&assembly.equations()})),
+      assembly_(std::move(assembly)),
+      guess_(std::move(guess)) {}
 
 Vector Multibody::initial_guess(const Vector& parameters) const {
   Vector si = parameters;
-  data_.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
+  assembly_.data().parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
   const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
   Vector x = Vector::Zero(n_coordinates());
   for (std::size_t i = 0; i < guess_.size(); ++i)
     x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
-  settle_states(*this, n_coordinates() - 3 * data_.n_triples, parameters, x);
+  settle_states(*this, n_coordinates() - 3 * assembly_.data().n_triples, parameters, x);
   return x;
 }
 
@@ -157,19 +165,17 @@ Structure structure_of(std::initializer_list<const MultibodyData*> parts, const 
 }
 
 Structure Multibody::structure(int traced_parameter) const {
-  return structure_of({&data_}, moving_parameters(description(), traced_parameter));
+  return structure_of({&assembly_.data()}, moving_parameters(description(), traced_parameter));
 }
 
 EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,
                                     EvaluationCounts& counts) const {
-  return with_order(order,
-                    [&]<int Q>() { return Assembly<double, Q>(data_, path).residual(result, counts); });
+  return assembly_.residual(path, order, result, counts);
 }
 
 EvaluationFault Multibody::linearize(const Path& path, int order, Linearization& result,
                                      EvaluationCounts& counts) const {
-  return with_order(order,
-                    [&]<int Q>() { return Assembly<double, Q>(data_, path).linearize(result, counts); });
+  return assembly_.linearize(path, order, result, counts);
 }
 
 EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, TrimDerivatives& result,
@@ -194,7 +200,7 @@ EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, Tr
 EvaluationFault Multibody::trim_derivatives(const Path& at, TrimDerivatives& result,
                                             EvaluationCounts& counts) const {
   if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
-  return Assembly<double, 0>(data_, at).trim_rows(result, counts);
+  return assembly_.trim_rows(at, result, counts);
 }
 
 std::vector<Expression> varying(const std::vector<Expression>& quantities) {
@@ -207,19 +213,19 @@ std::vector<Expression> varying(const std::vector<Expression>& quantities) {
 }
 
 std::vector<Expression> Multibody::expressions() const {
-  return varying(data_.quantities);
+  return varying(assembly_.data().quantities);
 }
 
 EvaluationFault Multibody::extended_residual(const BasicPath<Extended>& path,
                                              BasicSteadyResidual<Extended>& result) const {
   EvaluationCounts counts = new_counts();
-  return Assembly<Extended, 0>(data_, path).residual(result, counts);
+  return assembly_.residual(path, 0, result, counts);
 }
 
 EvaluationFault Multibody::extended_linearization(const BasicPath<Extended>& path,
                                                   BasicLinearization<Extended>& result) const {
   EvaluationCounts counts = new_counts();
-  return Assembly<Extended, 0>(data_, path).linearize(result, counts);
+  return assembly_.linearize(path, 0, result, counts);
 }
 
 }  // namespace eigentrail

@@ -19,6 +19,10 @@ std::vector<int> moving_parameters(const ModelDescription& description, int trac
 EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, TrimDerivatives& result,
                                           EvaluationCounts& counts);
 
+/// The description with the costs of recorded equations added to its effects.
+ModelDescription with_costs(ModelDescription description,
+                            std::initializer_list<const RecordedEquations*> equations);
+
 /// The expressions that are not constant, each once.
 std::vector<Expression> varying(const std::vector<Expression>& quantities);
 
@@ -28,7 +32,8 @@ void settle_states(const Model& model, Eigen::Index n_states, const Vector& para
 
 class Multibody final : public Model {
  public:
-  Multibody(ModelDescription description, MultibodyData data, std::vector<Expression> guess);
+  /// The costs of what is recorded are added to the description.
+  Multibody(ModelDescription description, Assembly assembly, std::vector<Expression> guess);
 
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;
@@ -45,7 +50,7 @@ class Multibody final : public Model {
                                          BasicLinearization<Extended>& result) const override;
 
  private:
-  MultibodyData data_;
+  Assembly assembly_;
   std::vector<Expression> guess_;  ///< one per coordinate of points and bodies
 };
 

@@ -2,46 +2,44 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "model/record/recorded.hpp"
+#include "model/record/smooth_function.hpp"
 #include "model/sample_interpolation.hpp"
 
 namespace eigentrail {
 
-template <class Scalar>
-struct PolarPoint {
-  Scalar lift, drag, moment;
-};
-
-/// Smooth functions through the rows of a table. The basis of their interpolant is evaluated once for all.
-class Polar {
+/// The smooth function through the values of a column; not a number outside the table.
+class PolarCurve final : public SmoothFunction {
  public:
-  /// `values`: of lift, drag and moment at the nodes; empty: zero.
-  Polar(std::shared_ptr<const SamplePiece> piece, std::array<std::vector<double>, 3> values)
+  PolarCurve(std::shared_ptr<const SamplePiece> piece, std::vector<double> values)
       : piece_(std::move(piece)), values_(std::move(values)) {}
 
-  /// The coefficients at an angle, rad; not numbers outside the table.
-  template <class Scalar>
-  PolarPoint<Scalar> at(const Scalar& angle) const {
-    const std::vector<double>& nodes = piece_->interpolant.nodes();
-    const double where = leading_value(angle);
-    if (!(where >= nodes.front() && where <= nodes.back())) {
-      const Scalar outside(std::numeric_limits<double>::quiet_NaN());
-      return {outside, outside, outside};
-    }
-    const std::vector<Scalar> basis = piece_->interpolant.basis(angle);
-    std::array<Scalar, 3> sums{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < values_[k].size(); ++i) sums[k] += values_[k][i] * basis[i];
-    }
-    return {sums[0], sums[1], sums[2]};
+  void taylor(double x, std::span<double> coefficients) const override {
+    piece_->interpolant.taylor<double>(x, values_, coefficients);
   }
+  void taylor(const Extended& x, std::span<Extended> coefficients) const override {
+    piece_->interpolant.taylor<Extended>(x, values_, coefficients);
+  }
+
+  bool is_empty() const { return values_.empty(); }
 
  private:
   std::shared_ptr<const SamplePiece> piece_;
-  std::array<std::vector<double>, 3> values_;
+  std::vector<double> values_;
+};
+
+/// Curves without values are zero.
+struct Polar {
+  PolarCurve lift, drag, moment;
+
+  /// The value of one of them at an angle, rad.
+  template <class Scalar>
+  static Scalar value(const PolarCurve& curve, const Scalar& angle) {
+    return curve.is_empty() ? Scalar(0.0) : apply(curve, angle);
+  }
 };
 
 }  // namespace eigentrail

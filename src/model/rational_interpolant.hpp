@@ -8,6 +8,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -45,7 +47,43 @@ class RationalInterpolant {
     return terms;
   }
 
-  /// The same at a number, as a vector.
+  /// Coefficients c_0, ..., c_n of sum_j f_j b_j(x + t) = sum_k c_k t^k for values f at the nodes, n + 1 the
+  /// size of `coefficients`; not numbers outside the nodes.
+  template <class Real>
+  void taylor(const Real& x, const std::vector<double>& values, std::span<Real> coefficients) const {
+    const double at = static_cast<double>(x);
+    const bool inside = at >= nodes_.front() && at <= nodes_.back();
+    std::fill(coefficients.begin(), coefficients.end(),
+              Real(inside ? 0.0 : std::numeric_limits<double>::quiet_NaN()));
+    if (!inside) return;
+    const std::size_t m = nearest(at);
+    const Real from_nearest = x - Real(nodes_[m]);
+    std::vector<Real> sum(coefficients.size(), Real(0.0));
+    const auto add = [&](std::size_t j, std::size_t k, const Real& share) {
+      sum[k] += share;
+      coefficients[k] += share * Real(values[j]);
+    };
+    for (std::size_t j = 0; j < nodes_.size(); ++j) {
+      if (j == m) {
+        add(j, 0, Real(weights_[j]));
+        continue;
+      }
+      // (from_nearest + t) / (from_node + t)
+      const Real from_node = x - Real(nodes_[j]);
+      Real quotient = from_nearest / from_node;
+      add(j, 0, quotient * Real(weights_[j]));
+      for (std::size_t k = 1; k < sum.size(); ++k) {
+        quotient = (Real(k == 1 ? 1.0 : 0.0) - quotient) / from_node;
+        add(j, k, quotient * Real(weights_[j]));
+      }
+    }
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      for (std::size_t i = 0; i < k; ++i) coefficients[k] -= coefficients[i] * sum[k - i];
+      coefficients[k] /= sum[0];
+    }
+  }
+
+  /// The basis functions at a number, as a vector.
   Vector values(double x) const;
 
   /// The factor of the divided differences of order degree + 1 in the error at x, up to a constant (Eq. 13 of

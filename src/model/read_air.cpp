@@ -127,12 +127,12 @@ class StripReader {
         "the angle of attack", "rad", {{"lift", ""}, {"drag", ""}, {"moment", ""}}, polar_degree};
     try {
       const CoefficientTable table = tabulate(csv, 0.0, columns);
-      std::array<std::vector<double>, 3> values;
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (const auto column = table.find(columns.known[k].first)) values[k] = column->values();
-      }
+      const auto curve = [&](const std::string& name) {
+        const auto column = table.find(name);
+        return PolarCurve(table.piece, column ? column->values() : std::vector<double>());
+      };
       draft_.notes.emplace_back(table_.label() + " polar", table.in_words());
-      return std::make_shared<const Polar>(table.piece, std::move(values));
+      return std::make_shared<const Polar>(Polar{curve("lift"), curve("drag"), curve("moment")});
     } catch (const TableFault& fault) {
       table_.fail("polar", fault.what());
     }

@@ -143,16 +143,16 @@ MassDistribution mass_distribution(Draft& draft, int body, const Expression& mas
   masses.size = 4;
   const int origin = draft.bodies[static_cast<std::size_t>(body)].triple;
   for (int i = 0; i < 4; ++i) masses.carriers[static_cast<std::size_t>(i)] = draft.point_place(origin + i);
-  masses.mass = draft.quantity(mass);
+  masses.mass = draft.quantity_unless_zero(mass);
   const Expression half_trace = Expression(0.5) * (J[0][0] + J[1][1] + J[2][2]);
   for (std::size_t i = 0; i < 3; ++i) {
-    masses.first[i] = draft.quantity(mass * centre[i]);
-    masses.second[i] = draft.quantity(half_trace - J[i][i] + mass * centre[i] * centre[i]);
+    masses.first[i] = draft.quantity_unless_zero(mass * centre[i]);
+    masses.second[i] = draft.quantity_unless_zero(half_trace - J[i][i] + mass * centre[i] * centre[i]);
   }
   const std::array<std::array<std::size_t, 2>, 3> mixed = {{{0, 1}, {0, 2}, {1, 2}}};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [i, j] = mixed[k];
-    masses.second[3 + k] = draft.quantity(mass * centre[i] * centre[j] - J[i][j]);
+    masses.second[3 + k] = draft.quantity_unless_zero(mass * centre[i] * centre[j] - J[i][j]);
   }
   return masses;
 }

@@ -215,7 +215,7 @@ void read_points(Draft& draft) {
     draft.mass_names.push_back(name);
     MassDistribution& masses = draft.masses.emplace_back();
     masses.carriers[0] = draft.point_place(static_cast<int>(i));
-    masses.mass = draft.quantity(mass);
+    masses.mass = draft.quantity_unless_zero(mass);
   }
 }
 
@@ -349,25 +349,19 @@ ModelDescription describe(const Draft& draft) {
   for (const TrimCondition& trim : draft.data.trims) description.trims.push_back({trim.parameter, trim.text});
   description.parameters = draft.data.parameters;
   draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
-    constexpr Dependence depends = Element::depends;
-    constexpr int motions = int{depends.position} + int{depends.velocity} + int{depends.acceleration};
-    int evaluations = 0;
-    for (const Placed<Element>& placed : list)
-      evaluations +=
-          3 * motions * static_cast<int>(placed.arguments.size()) + 2 * number_of_states<Element>();
-    description.effects.push_back({std::string(Element::name), std::string(Element::description),
-                                   static_cast<int>(list.size()), Element::contribution, evaluations,
-                                   number_of_states<Element>() * static_cast<int>(list.size())});
+    Effect& effect = description.effects.emplace_back();
+    effect.name = Element::name;
+    effect.description = Element::description;
+    effect.count = static_cast<int>(list.size());
+    effect.contribution = Element::contribution;
+    effect.states = number_of_states<Element>() * effect.count;
   });
   for (const ConstraintKind& kind : constraint_kinds()) {
     description.effects.push_back(
         {std::string(kind.name), std::string(kind.description), 0, Contribution{.constraint = true}});
   }
-  for (const Constraint& constraint : draft.data.constraints) {
-    Effect& effect = description.effects[Elements::kinds + static_cast<std::size_t>(constraint.kind)];
-    ++effect.count;
-    effect.evaluations += static_cast<int>(constraint.rows.size());
-  }
+  for (const Constraint& constraint : draft.data.constraints)
+    ++description.effects[Elements::kinds + static_cast<std::size_t>(constraint.kind)].count;
   return description;
 }
 
@@ -425,7 +419,8 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   description.unused_parameters = std::move(unused);
   if (rotation) description.rotation_axis = axis_of(draft, *rotation);
   if (draft.rotor) return make_bladed_rotor(draft, std::move(description), rotor_speed(draft, rotation));
-  return std::make_unique<Multibody>(std::move(description), std::move(draft.data), std::move(draft.guess));
+  return std::make_unique<Multibody>(std::move(description), Assembly(std::move(draft.data)),
+                                     std::move(draft.guess));
 }
 
 }  // namespace eigentrail

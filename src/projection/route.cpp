@@ -7,7 +7,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "model/multibody.hpp"
-#include "model/scatter.hpp"
+#include "model/recorded_equations.hpp"
 #include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
 

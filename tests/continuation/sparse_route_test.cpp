@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "model/scatter.hpp"
+#include "model/recorded_equations.hpp"
 #include "support/chains.hpp"
 #include "support/scenes.hpp"
 

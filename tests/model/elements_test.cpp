@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "model/registry.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
@@ -270,7 +269,7 @@ TEST_P(Elements, SeriesAlongAPathReproduceTheMatricesAheadWithFifthOrder) {
   }
 }
 
-/// The same templates with 113 bits: the results differ only by the rounding of double precision.
+/// The same records with 113 bits: the results differ only by the rounding of double precision.
 TEST_P(Elements, AgreesWithExtendedPrecision) {
   Linearization lin;
   SteadyResidual residual;
@@ -327,92 +326,6 @@ TEST(Registry, EveryEffectHasACase) {
     });
     EXPECT_TRUE(found) << effect.name;
   }
-}
-
-/// Gives every field of an element a vector or a number of its own.
-class Filler {
- public:
-  static constexpr int fast = 40;
-
-  explicit Filler(std::vector<Place>& arguments) : arguments_(arguments) {}
-
-  void place(std::string_view, Place& place, std::string_view = {}) {
-    const int index = static_cast<int>(arguments_.size());
-    place = {{{index, {}}}, {}, index};
-    arguments_.push_back(place);
-  }
-  void point(std::string_view key, Place& p, std::string_view) { place(key, p); }
-  void direction(std::string_view key, Place& d, std::string_view) { place(key, d); }
-  void body(std::string_view key, std::array<Place, 3>& directors, std::string_view) {
-    for (Place& d : directors) place(key, d);
-  }
-  void joint(std::string_view key, HingeAngle& angle, std::string_view) {
-    for (Place* d : {&angle.axis, &angle.from, &angle.to}) place(key, *d);
-  }
-  /// Sections are slower than sound.
-  void quantity(const QuantityField& field, Quantity& q) {
-    q = {1.0, field.key == "speed_of_sound" ? fast : slot_++};
-  }
-  void vector(const QuantityField&, std::array<Quantity, 3>& v) {
-    for (Quantity& q : v) q = {1.0, slot_++};
-  }
-  void matrix(const QuantityField&, std::array<Quantity, 4>& m) {
-    for (Quantity& q : m) q = {1.0, slot_++};
-  }
-
- private:
-  std::vector<Place>& arguments_;
-  int slot_ = 0;
-};
-
-/// Derivatives in directions that an element does not declare must vanish. If a declaration were missing, a
-/// matrix would be omitted, or taken as constant, without an error.
-TEST(Registry, DeclaredDependencesAreComplete) {
-  using Base = Series<double, 0>;
-  using Scalar = Series<Base, 1>;
-  PathValues<Base> values;
-  for (int i = 0; i < 8; ++i)
-    values.triples.push_back({Base(0.3 + 0.17 * i * i), Base(0.9 - 0.4 * i), Base(0.2 + std::sin(3.0 * i))});
-  for (int i = 0; i < 40; ++i) values.values.emplace_back(1.1 + 0.3 * i + 0.2 * std::sin(5.0 * i));
-  values.values.emplace_back(1e3);  // Filler::fast
-  PathValues<Base> elsewhere = values;
-  for (auto& triple : elsewhere.triples) triple += Vec3<Base>(Base(0.21), Base(-0.33), Base(0.1) * triple[0]);
-
-  eigentrail::Elements().for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
-    Element element;
-    std::vector<Place> arguments;
-    Filler filler(arguments);
-    Element::fields(element, filler);
-    const auto derivatives = [&](const PathValues<Base>& at, Motion motion) {
-      std::vector<Vec3<Base>> positions;
-      for (const Place& place : arguments) positions.push_back(at.vector(place));
-      const std::vector<Base> states(static_cast<std::size_t>(number_of_states<Element>()), Base(0.7));
-      std::vector<double> all;
-      for (int component = 0; component < 3 * static_cast<int>(arguments.size()); ++component) {
-        std::vector<Scalar> state_force(states.size());
-        ElementView<Scalar> view(at, positions, Seed{motion, component}, states, state_force);
-        element.force(view);
-        for (std::size_t i = 0; i < arguments.size(); ++i) {
-          for (int j = 0; j < 3; ++j) all.push_back(view.force(i)[j][1][0]);
-        }
-      }
-      return Vector(Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size())));
-    };
-    constexpr Dependence depends = Element::depends;
-    for (const auto& [declared, motion] :
-         {std::pair(depends.position, Motion::position), std::pair(depends.velocity, Motion::velocity),
-          std::pair(depends.acceleration, Motion::acceleration)}) {
-      EXPECT_EQ(declared, derivatives(values, motion).norm() > 0.0)
-          << Element::name << " motion " << static_cast<int>(motion);
-    }
-    const Vector rates = derivatives(values, Motion::velocity);
-    EXPECT_EQ(depends.turning,
-              (rates - derivatives(elsewhere, Motion::velocity)).norm() > 1e-12 * rates.norm())
-        << Element::name;
-    const Vector masses = derivatives(values, Motion::acceleration);
-    EXPECT_EQ(depends.turning_mass, (masses - derivatives(elsewhere, Motion::acceleration)).norm() > 0.0)
-        << Element::name;
-  });
 }
 
 TEST(Registry, CoincidingSpringEndsAreReportedByName) {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "model/scatter.hpp"
+#include "model/recorded_equations.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {

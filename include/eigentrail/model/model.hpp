@@ -40,8 +40,9 @@ struct Effect {
   std::string description;    ///< one line
   int count = 0;              ///< number of its occurrences in the scene; 0: never evaluated
   Contribution contribution;  ///< contribution of each occurrence
-  /// Evaluations of its formula (constraints: rows) for all occurrences in one linearization.
-  int evaluations = 0;
+  int records = 0;            ///< different structures of its occurrences; their operations are recorded once
+  int directions = 0;         ///< of differentiation on which the forces of one occurrence depend, the most
+  int operations = 0;         ///< on numbers or power series for all occurrences in one linearization
   /// First-order coordinates that belong to its occurrences, one per state; they are the last coordinates of
   /// the model.
   int states = 0;

@@ -77,9 +77,15 @@ class Expression {
   /// with the offset of the fault.
   static Expression parse(std::string_view text, const std::vector<std::string>& names);
 
-  /// Value for given parameter values (SI), one for each name that `parse` got.
+  /// Makes scalars of the numbers of an expression.
   template <class Scalar>
-  Scalar evaluate(std::span<const Scalar> parameters) const;
+  struct Number {
+    Scalar operator()(double value) const { return Scalar(value); }
+  };
+
+  /// Value for given parameter values (SI), one for each name that `parse` got.
+  template <class Scalar, class MakeNumber = Number<Scalar>>
+  Scalar evaluate(std::span<const Scalar> parameters, MakeNumber number = {}) const;
 
   bool is_constant() const { return parameters_.empty(); }
 
@@ -171,15 +177,15 @@ Scalar apply(Expression::Op op, const Scalar& a, const Scalar& b) {
 
 }  // namespace detail
 
-template <class Scalar>
-Scalar Expression::evaluate(std::span<const Scalar> parameters) const {
-  if (is_constant() && code_.size() == 1) return Scalar(code_[0].number);
+template <class Scalar, class MakeNumber>
+Scalar Expression::evaluate(std::span<const Scalar> parameters, MakeNumber number) const {
+  if (is_constant() && code_.size() == 1) return number(code_[0].number);
   std::array<Scalar, max_stack> stack{};
   int top = -1;
   for (const Instruction& i : code_) {
     switch (i.op) {
       case Op::number:
-        stack[++top] = Scalar(i.number);
+        stack[++top] = number(i.number);
         break;
       case Op::parameter:
         stack[++top] = parameters[i.parameter];

@@ -58,12 +58,12 @@ class Parameters {
   Vector declared_values() const;
 
   /// Converts declared values to SI in place and computes the derived ones, whose entries are overwritten.
-  template <class Scalar>
-  void to_si(std::span<Scalar> values) const {
+  template <class Scalar, class MakeNumber = Expression::Number<Scalar>>
+  void to_si(std::span<Scalar> values, MakeNumber number = {}) const {
     for (std::size_t i = 0; i < list_.size(); ++i) values[i] = values[i] * list_[i].factor;
     for (const int i : derived_order_) {
       const double factor = list_[i].definition_is_si ? 1.0 : list_[i].factor;
-      values[i] = list_[i].definition->evaluate(std::span<const Scalar>(values)) * factor;
+      values[i] = list_[i].definition->evaluate(std::span<const Scalar>(values), number) * factor;
     }
   }
 

@@ -106,10 +106,10 @@ struct AirSection {
     return value / sqrt(1.0 - flow.speed_squared() / (sound * sound));
   }
 
-  /// Coefficients of the table for a downwash.
+  /// A coefficient of the table for a downwash.
   template <class Scalar>
-  PolarPoint<Scalar> coefficients(const AirFlow<Scalar>& flow, const Scalar& downwash) const {
-    return polar->at(angle_of(downwash, flow.forward));
+  Scalar coefficient(const PolarCurve& curve, const AirFlow<Scalar>& flow, const Scalar& downwash) const {
+    return Polar::value(curve, angle_of(downwash, flow.forward));
   }
 
   /// Density times circulation times width that a downwash causes, kg/s: 1/2 rho c a (downwash cos alpha_0 -
@@ -119,7 +119,7 @@ struct AirSection {
                      const Scalar& downwash) const {
     using std::cos, std::sin, std::sqrt;
     const Scalar half = compressed(at, flow, half_mass(at));
-    if (polar) return half * sqrt(flow.speed_squared()) * coefficients(flow, downwash).lift;
+    if (polar) return half * sqrt(flow.speed_squared()) * coefficient(polar->lift, flow, downwash);
     const Scalar slope = half * at.value(lift_slope);
     if (zero_lift.slot < 0) return slope * downwash;
     const Scalar angle = at.value(zero_lift);

@@ -24,6 +24,7 @@ struct Gravity {
   void force(ElementView<Scalar>& at) const {
     const Vec3<Scalar> g = at.value(acceleration);
     for (int i = 0; i < masses.size; ++i) {
+      if (masses.moment(i, 0).slot < 0) continue;
       at.add_force(masses.carriers[static_cast<std::size_t>(i)], at.value(masses.moment(i, 0)) * g);
     }
   }

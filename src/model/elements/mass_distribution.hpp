@@ -14,7 +14,7 @@ namespace eigentrail {
 struct MassDistribution {
   int size = 1;                    ///< number of `carriers` in use: 1 for a point, 4 for a body
   std::array<Place, 4> carriers;   ///< position of the point; or origin and directors of the body
-  Quantity mass;                   ///< kg
+  Quantity mass;                   ///< kg; moments without slot are zero
   std::array<Quantity, 3> first;   ///< G_01, G_02, G_03, kg m
   std::array<Quantity, 6> second;  ///< G_11, G_22, G_33, G_12, G_13, G_23, kg m^2
 
@@ -41,15 +41,10 @@ struct MassDistribution {
       const Vec3<Scalar> a = acceleration(carriers[static_cast<std::size_t>(j)]);
       for (int i = 0; i < size; ++i) {
         const Quantity& moment_ij = moment(i, j);
-        if (is_zero(moment_ij)) continue;
+        if (moment_ij.slot < 0) continue;
         at.add_force(carriers[static_cast<std::size_t>(i)], -at.value(moment_ij) * a);
       }
     }
-  }
-
- private:
-  static bool is_zero(const Quantity& q) {
-    return q.expression.is_constant() && q.expression.evaluate(std::span<const double>()) == 0.0;
   }
 };
 

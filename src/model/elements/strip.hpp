@@ -37,9 +37,8 @@ struct Strip : AirSection {
     const Scalar half = half_mass(at);
     Scalar c_d(0.0), c_m(0.0);
     if (polar) {
-      const PolarPoint<Scalar> table = coefficients(air, air.downwash);
-      c_d = table.drag;
-      c_m = table.moment;
+      c_d = coefficient(polar->drag, air, air.downwash);
+      c_m = coefficient(polar->moment, air, air.downwash);
     }
     if (drag.slot >= 0) c_d += at.value(drag);
     if (moment.slot >= 0) c_m += at.value(moment);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/multiblade/matrix_sums.hpp"
 #include "model/multibody.hpp"
-#include "model/scatter.hpp"
 
 namespace eigentrail {
 namespace {
@@ -36,20 +36,27 @@ void for_each_entry(const BasicSystemMatrix<Real>& B, Visit visit) {
   });
 }
 
-/// The rotor at a path, as series of order Q.
-template <class Real, int Q>
+/// The rotor at a path, as series up to h^order.
+template <class Real>
 class RotorAssembly {
  public:
   using Columns = typename BasicPath<Real>::Columns;
+  using LongSeries = Series<Real, max_order>;
 
-  RotorAssembly(const BladedRotorData& data, const SharesByHarmonic& shares, const BasicPath<Real>& path)
-      : data_(data), map_(data.map), shares_(shares), path_(path), parameters_(parameters_of(data, path)) {
-    std::vector<Series<Real, Q>> values(static_cast<std::size_t>(parameters_.rows()));
+  RotorAssembly(const BladedRotorData& data, const SharesByHarmonic& shares, const BasicPath<Real>& path,
+                int order)
+      : data_(data),
+        map_(data.map),
+        shares_(shares),
+        path_(path),
+        order_(order),
+        parameters_(parameters_of(data, path, order)) {
+    std::vector<LongSeries> values(static_cast<std::size_t>(parameters_.rows()));
     for (Eigen::Index i = 0; i < parameters_.rows(); ++i) {
-      for (int k = 0; k <= Q; ++k) values[static_cast<std::size_t>(i)][k] = parameters_(i, k);
+      for (int k = 0; k <= order; ++k) values[static_cast<std::size_t>(i)][k] = parameters_(i, k);
     }
-    data.blade.parameters.to_si(std::span<Series<Real, Q>>(values));
-    speed_ = data.speed.evaluate(std::span<const Series<Real, Q>>(values));
+    data.blade.data().parameters.to_si(std::span<LongSeries>(values));
+    speed_ = data.speed.evaluate(std::span<const LongSeries>(values));
   }
 
   /// A fault if the hub is not on the axis of rotation, or blades differ.
@@ -74,10 +81,10 @@ class RotorAssembly {
 
   EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const {
     if (EvaluationFault fault = check_axis()) return fault;
-    result.force = Columns::Zero(map_.n_coordinates, Q + 1);
-    result.constraint = Columns::Zero(path_.lambda.rows(), Q + 1);
+    result.force = Columns::Zero(map_.n_coordinates, order_ + 1);
+    result.constraint = Columns::Zero(path_.lambda.rows(), order_ + 1);
     BasicSteadyResidual<Real> part;
-    if (auto fault = Assembly<Real, Q>(data_.support, support_path()).residual(part, counts)) return fault;
+    if (auto fault = data_.support.residual(support_path(), order_, part, counts)) return fault;
     for (std::size_t i = 0; i < map_.support.size(); ++i) {
       if (map_.support[i] >= 0) result.force.row(map_.support[i]) += part.force.row(row_of(i));
     }
@@ -86,7 +93,7 @@ class RotorAssembly {
         result.constraint.row(map_.support_row[i]) = part.constraint.row(row_of(i));
     }
     add_conditions(data_.trims_of_support, part.constraint, result.constraint);
-    if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).residual(part, counts)) return fault;
+    if (auto fault = data_.blade.residual(blade_path(), order_, part, counts)) return fault;
     const Real n(map_.n_blades);
     for (std::size_t i = 0; i < map_.blade.size(); ++i) {
       for (const RotorShare& share : shares_[0][i])
@@ -102,11 +109,11 @@ class RotorAssembly {
 
   EvaluationFault linearize(BasicLinearization<Real>& result, EvaluationCounts& counts) const {
     if (EvaluationFault fault = check_axis()) return fault;
-    LinearizationScatter<Real, Q> sum(map_.n_coordinates, map_.n_constraints);
+    LinearizationSums<Real> sum(map_.n_coordinates, map_.n_constraints, order_);
     BasicLinearization<Real> part;
-    if (auto fault = Assembly<Real, Q>(data_.support, support_path()).linearize(part, counts)) return fault;
+    if (auto fault = data_.support.linearize(support_path(), order_, part, counts)) return fault;
     add_support(part, sum);
-    if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).linearize(part, counts)) return fault;
+    if (auto fault = data_.blade.linearize(blade_path(), order_, part, counts)) return fault;
     add_blades(part, sum);
     result = sum.take();
     return {};
@@ -117,7 +124,7 @@ class RotorAssembly {
     result.x = Matrix::Zero(n_trims(), map_.n_coordinates);
     result.lambda = Matrix::Zero(n_trims(), map_.n_constraints);
     TrimDerivatives part;
-    if (auto fault = Assembly<Real, Q>(data_.support, support_path()).trim_rows(part, counts)) return fault;
+    if (auto fault = data_.support.trim_rows(support_path(), part, counts)) return fault;
     for (std::size_t j = 0; j < data_.trims_of_support.size(); ++j) {
       const Eigen::Index row = data_.trims_of_support[j];
       for (std::size_t i = 0; i < map_.support.size(); ++i) {
@@ -128,7 +135,7 @@ class RotorAssembly {
           result.lambda(row, map_.support_row[i]) = part.lambda(row_of(j), row_of(i));
       }
     }
-    if (auto fault = Assembly<Real, Q>(data_.blade, blade_path()).trim_rows(part, counts)) return fault;
+    if (auto fault = data_.blade.trim_rows(blade_path(), part, counts)) return fault;
     for (std::size_t j = 0; j < data_.trims_of_blade.size(); ++j) {
       const Eigen::Index row = data_.trims_of_blade[j];
       for (std::size_t i = 0; i < map_.blade.size(); ++i) {
@@ -146,14 +153,15 @@ class RotorAssembly {
   using Coefficients = typename BasicLinearization<Real>::Coefficients;
 
   /// The parameters along the path, with the trimmed ones in their places.
-  static Columns parameters_of(const BladedRotorData& data, const BasicPath<Real>& path) {
-    Columns all = Columns::Zero(path.parameters.rows(), Q + 1);
-    for (int k = 0; k <= Q; ++k) {
+  static Columns parameters_of(const BladedRotorData& data, const BasicPath<Real>& path, int order) {
+    Columns all = Columns::Zero(path.parameters.rows(), order + 1);
+    for (int k = 0; k <= order; ++k) {
       for (Eigen::Index i = 0; i < all.rows(); ++i) all(i, k) = coefficient(path.parameters, i, k);
       for (auto [part, rows] :
            {std::pair(&data.blade, &data.trims_of_blade), std::pair(&data.support, &data.trims_of_support)}) {
         for (std::size_t i = 0; i < rows->size(); ++i)
-          all(part->trims[i].parameter, k) = coefficient(path.lambda, data.map.n_constraints + (*rows)[i], k);
+          all(part->data().trims[i].parameter, k) =
+              coefficient(path.lambda, data.map.n_constraints + (*rows)[i], k);
       }
     }
     return all;
@@ -205,24 +213,24 @@ class RotorAssembly {
     return part;
   }
 
-  void add_support(const BasicLinearization<Real>& part, LinearizationScatter<Real, Q>& sum) const {
+  void add_support(const BasicLinearization<Real>& part, LinearizationSums<Real>& sum) const {
     for (const auto& [from, to] :
          {std::pair(&part.M, &sum.M), std::pair(&part.C, &sum.C), std::pair(&part.K, &sum.K)}) {
       for (std::size_t k = 0; k < from->size(); ++k) {
         for_each_entry((*from)[k], [&, to = to](std::size_t i, std::size_t j, const Real& value) {
-          to->add(static_cast<int>(k), map_.support[i], map_.support[j], value);
+          to->add(k, map_.support[i], map_.support[j], value);
         });
       }
     }
     for (std::size_t k = 0; k < part.A.size(); ++k) {
       for_each_entry(part.A[k], [&](std::size_t i, std::size_t j, const Real& value) {
-        sum.A.add(static_cast<int>(k), map_.support_row[i], map_.support[j], value);
+        sum.A.add(k, map_.support_row[i], map_.support[j], value);
       });
     }
   }
 
-  void add_blades(const BasicLinearization<Real>& blade, LinearizationScatter<Real, Q>& sum) const {
-    const Series<Real, Q> one(1.0), twice = 2.0 * speed_, squared = speed_ * speed_;
+  void add_blades(const BasicLinearization<Real>& blade, LinearizationSums<Real>& sum) const {
+    const LongSeries one(1.0), twice = 2.0 * speed_, squared = speed_ * speed_;
     fold(blade.M, one, 0, sum.M);
     fold(blade.C, one, 0, sum.C);
     fold(blade.M, twice, 1, sum.C);
@@ -234,7 +242,7 @@ class RotorAssembly {
       for (std::size_t k = 0; k < blade.A.size(); ++k) {
         for_each_entry(blade.A[k], [&](std::size_t i, std::size_t j, const Real& value) {
           for (const RotorShare& share : shares_[a][j])
-            sum.A.add(static_cast<int>(k), map_.blade_row[i] + static_cast<int>(a), share.coordinate,
+            sum.A.add(k, map_.blade_row[i] + static_cast<int>(a), share.coordinate,
                       weight * Real(share.weight) * value);
         });
       }
@@ -242,8 +250,7 @@ class RotorAssembly {
   }
 
   /// Adds N sum_a w_a G_a^T (factor B) (D^d G)_a, d = `derivative`.
-  void fold(const Coefficients& B, const Series<Real, Q>& factor, int derivative,
-            Scatter<Real, Q>& sum) const {
+  void fold(const Coefficients& B, const LongSeries& factor, int derivative, MatrixSum<Real>& sum) const {
     for (std::size_t a = 0; a < map_.harmonics.size(); ++a) {
       const Harmonic& harmonic = map_.harmonics[a];
       if (derivative > 0 && harmonic.partner < 0) continue;
@@ -260,9 +267,10 @@ class RotorAssembly {
           for (const RotorShare& row : shares_[a][i]) {
             for (const RotorShare& column : shares_[columns][j]) {
               const Real entry = Real(scale * row.weight * column.weight) * value;
-              for (int l = 0; static_cast<int>(k) + l <= Q; ++l) {
+              for (int l = 0; static_cast<int>(k) + l <= order_; ++l) {
                 if (factor[l] != Real(0.0))
-                  sum.add(static_cast<int>(k) + l, row.coordinate, column.coordinate, factor[l] * entry);
+                  sum.add(k + static_cast<std::size_t>(l), row.coordinate, column.coordinate,
+                          factor[l] * entry);
               }
             }
           }
@@ -275,20 +283,22 @@ class RotorAssembly {
   const MultibladeMap& map_;
   const SharesByHarmonic& shares_;
   const BasicPath<Real>& path_;
+  int order_;
   Columns parameters_;  ///< with trimmed parameters
-  Series<Real, Q> speed_;
+  LongSeries speed_;
 };
 
 }  // namespace
 
 MultibladeRotor::MultibladeRotor(ModelDescription description, BladedRotorData data)
-    : Model(std::move(description)), data_(std::move(data)) {
+    : Model(with_costs(std::move(description), {&data.blade.equations(), &data.support.equations()})),
+      data_(std::move(data)) {
   for (std::size_t a = 0; a < data_.map.harmonics.size(); ++a) shares_.push_back(data_.map.shares(a));
 }
 
 Vector MultibladeRotor::initial_guess(const Vector& parameters) const {
   Vector si = parameters;
-  data_.blade.parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
+  data_.blade.data().parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
   const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
   Vector x = Vector::Zero(n_coordinates());
   for (std::size_t i = 0; i < data_.guess.size(); ++i) {
@@ -301,14 +311,14 @@ Vector MultibladeRotor::initial_guess(const Vector& parameters) const {
 
 Structure MultibladeRotor::structure(int traced_parameter) const {
   const std::vector<int> moving = moving_parameters(description(), traced_parameter);
-  const Parameters& parameters = data_.blade.parameters;
+  const Parameters& parameters = data_.blade.data().parameters;
   const bool same_speed = std::none_of(moving.begin(), moving.end(), [&](int parameter) {
     return parameters.depends_on(data_.speed, parameter);
   });
-  Structure result = structure_of({&data_.blade, &data_.support}, moving);
+  Structure result = structure_of({&data_.blade.data(), &data_.support.data()}, moving);
   result.gyroscopic = true;
   // The damping of blades acts in the turning frame: Omega C (DG) is unsymmetric.
-  result.circulatory = result.circulatory || structure_of({&data_.blade}, moving).damped;
+  result.circulatory = result.circulatory || structure_of({&data_.blade.data()}, moving).damped;
   result.constant_damping = result.constant_damping && result.constant_mass && same_speed;
   result.constant_stiffness = result.constant_stiffness && result.constant_damping;
   return result;
@@ -316,38 +326,34 @@ Structure MultibladeRotor::structure(int traced_parameter) const {
 
 EvaluationFault MultibladeRotor::residual(const Path& path, int order, SteadyResidual& result,
                                           EvaluationCounts& counts) const {
-  return with_order(order, [&]<int Q>() {
-    return RotorAssembly<double, Q>(data_, shares_, path).residual(result, counts);
-  });
+  return RotorAssembly<double>(data_, shares_, path, order).residual(result, counts);
 }
 
 EvaluationFault MultibladeRotor::linearize(const Path& path, int order, Linearization& result,
                                            EvaluationCounts& counts) const {
-  return with_order(order, [&]<int Q>() {
-    return RotorAssembly<double, Q>(data_, shares_, path).linearize(result, counts);
-  });
+  return RotorAssembly<double>(data_, shares_, path, order).linearize(result, counts);
 }
 
 EvaluationFault MultibladeRotor::trim_derivatives(const Path& at, TrimDerivatives& result,
                                                   EvaluationCounts& counts) const {
   if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
-  return RotorAssembly<double, 0>(data_, shares_, at).trim_rows(result, counts);
+  return RotorAssembly<double>(data_, shares_, at, 0).trim_rows(result, counts);
 }
 
 std::vector<Expression> MultibladeRotor::expressions() const {
-  return varying(data_.blade.quantities);
+  return varying(data_.blade.data().quantities);
 }
 
 EvaluationFault MultibladeRotor::extended_residual(const BasicPath<Extended>& path,
                                                    BasicSteadyResidual<Extended>& result) const {
   EvaluationCounts counts = new_counts();
-  return RotorAssembly<Extended, 0>(data_, shares_, path).residual(result, counts);
+  return RotorAssembly<Extended>(data_, shares_, path, 0).residual(result, counts);
 }
 
 EvaluationFault MultibladeRotor::extended_linearization(const BasicPath<Extended>& path,
                                                         BasicLinearization<Extended>& result) const {
   EvaluationCounts counts = new_counts();
-  return RotorAssembly<Extended, 0>(data_, shares_, path).linearize(result, counts);
+  return RotorAssembly<Extended>(data_, shares_, path, 0).linearize(result, counts);
 }
 
 }  // namespace eigentrail

@@ -22,7 +22,7 @@ namespace eigentrail {
 
 struct BladedRotorData {
   /// Elements and constraints of one blade and of the support, both over the coordinates of the scene.
-  MultibodyData blade, support;
+  Assembly blade, support;
   /// For every condition of the blade and of the support: its index among those of the rotor.
   std::vector<int> trims_of_blade, trims_of_support;
   MultibladeMap map;

@@ -311,8 +311,8 @@ std::unique_ptr<Model> make_bladed_rotor(Draft& draft, ModelDescription descript
   description.masses = std::move(numbering.masses);
   description.rotor = BladedRotor{draft.rotor->blades, hub, speed, names_of(description.masses, false),
                                   names_of(description.masses, true)};
-  BladedRotorData data{std::move(parts.blade),
-                       std::move(parts.support),
+  BladedRotorData data{Assembly(std::move(parts.blade)),
+                       Assembly(std::move(parts.support)),
                        std::move(parts.trims_of_blade),
                        std::move(parts.trims_of_support),
                        std::move(numbering.map),

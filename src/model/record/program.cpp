@@ -1,0 +1,567 @@
+#include "model/record/program.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace eigentrail {
+namespace {
+
+/// A direction of differentiation: component + (number of components) * (0 value, 1 rate, 2 acceleration).
+using Directions = std::vector<int>;
+
+Directions united(const Directions& a, const Directions& b) {
+  Directions both;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
+/// Emits instructions for the values and derivatives that are asked for. Results are in registers, each
+/// written once; slots are assigned afterwards.
+class Compiler {
+ public:
+  explicit Compiler(const Record& record)
+      : record_(record),
+        zero_(record.operations.size()),
+        active_(record.operations.size()),
+        values_(record.operations.size(), -1) {
+    for (std::size_t i = 0; i < record.operations.size(); ++i) look_at(i);
+    one_ = constant(1.0);
+    minus_one_ = constant(-1.0);
+  }
+
+  void add_forces() {
+    Sums<int> by_coordinate;
+    for (std::size_t i = 0; i < record_.forces.size(); ++i) {
+      if (record_.forces[i] < 0 || zero_[at(record_.forces[i])]) continue;
+      add_shares(static_cast<int>(i), strong(value(record_.forces[i])), by_coordinate);
+    }
+    for (const auto& [coordinate, reg] : by_coordinate) program_.forces.push_back({coordinate, reg});
+    if (record_.residual >= 0) program_.residual = value(record_.residual);
+    for (std::size_t i = 0; i < record_.values.size(); ++i)
+      program_.values.push_back({static_cast<int>(i), value(record_.values[i])});
+  }
+
+  /// For every target: columns by components first, then by coordinates.
+  void add_entries() {
+    const int n = static_cast<int>(record_.components.size());
+    for (const auto& [motion, target] :
+         {std::pair(2, Target::mass), std::pair(1, Target::damping), std::pair(0, Target::stiffness)}) {
+      Sums<std::pair<int, int>> sums;
+      for (int component = 0; component < n; ++component) {
+        Sums<int> column;
+        for (int i = 0; i < static_cast<int>(record_.forces.size()); ++i) {
+          const int force = record_.forces[at(i)];
+          if (force < 0 || !depends(force, motion * n + component)) continue;
+          add_shares(i, strong(tangent(force, motion * n + component)), column);
+        }
+        for (const auto& [row, reg] : column) spread(row, component, reg, sums);
+      }
+      take(sums, target);
+    }
+    if (record_.residual < 0) return;
+    Sums<std::pair<int, int>> gradient;
+    for (int component = 0; component < n; ++component) {
+      if (depends(record_.residual, component))
+        spread(0, component, tangent(record_.residual, component), gradient);
+    }
+    take(gradient, Target::constraints);
+  }
+
+  Program finish();
+
+ private:
+  /// Registers by place. What needs no product is not added here, but where elements are.
+  template <class Key>
+  using Sums = std::multimap<Key, int>;
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  const Operation& operation(int node) const { return record_.operations[at(node)]; }
+
+  /// Whether the value of an operation is zero at the steady state, and the directions on which it depends.
+  void look_at(std::size_t i) {
+    const Operation& own = record_.operations[i];
+    const int n = static_cast<int>(record_.components.size());
+    const auto zero = [&](int node) { return bool(zero_[at(node)]); };
+    switch (own.op) {
+      case Operator::component:
+        active_[i] = {own.b};
+        return;
+      case Operator::rate:
+        active_[i] = {n + own.b};
+        zero_[i] = true;
+        return;
+      case Operator::acceleration:
+        active_[i] = {2 * n + own.b};
+        zero_[i] = true;
+        return;
+      case Operator::add:
+      case Operator::subtract:
+        zero_[i] = zero(own.a) && zero(own.b);
+        active_[i] = united(active_[at(own.a)], active_[at(own.b)]);
+        return;
+      case Operator::multiply:
+        zero_[i] = zero(own.a) || zero(own.b);
+        active_[i] = united(zero(own.b) ? Directions() : active_[at(own.a)],
+                            zero(own.a) ? Directions() : active_[at(own.b)]);
+        return;
+      case Operator::divide:
+        zero_[i] = zero(own.a);
+        active_[i] = united(active_[at(own.a)], zero(own.a) ? Directions() : active_[at(own.b)]);
+        return;
+      case Operator::negate:
+        zero_[i] = zero(own.a);
+        active_[i] = active_[at(own.a)];
+        return;
+      case Operator::power:
+      case Operator::min:
+      case Operator::max:
+        active_[i] = united(active_[at(own.a)], active_[at(own.b)]);
+        return;
+      case Operator::constant:
+      case Operator::number:
+      case Operator::coordinate:
+      case Operator::step:
+      case Operator::leading_angle:
+        return;
+      default:
+        active_[i] = active_[at(own.a)];
+    }
+  }
+
+  bool depends(int node, int direction) const {
+    const Directions& all = active_[at(node)];
+    return std::binary_search(all.begin(), all.end(), direction);
+  }
+
+  int emit(Kernel kernel, int a = -1, int b = -1, int c = -1, int d = -1) {
+    program_.instructions.push_back({kernel, next_, a, b, c, d});
+    return next_++;
+  }
+
+  int constant(double value) {
+    const auto [known, is_new] = constants_.emplace(std::bit_cast<std::uint64_t>(value), next_);
+    if (is_new) program_.constants.push_back({Kernel::constant, next_++, -1, -1, -1, -1, -1, value});
+    return known->second;
+  }
+
+  int product(int a, int b) {
+    if (a == one_) return b;
+    if (b == one_) return a;
+    if (a == minus_one_) return negated(b);
+    if (b == minus_one_) return negated(a);
+    return emit(Kernel::multiply, a, b);
+  }
+  int negated(int a) {
+    if (a == one_) return minus_one_;
+    return a == minus_one_ ? one_ : emit(Kernel::negate, a);
+  }
+  int sum(int a, int b) { return emit(Kernel::add, a, b); }
+  /// a b + c
+  int product_and(int a, int b, int c) {
+    if (a == one_) return sum(b, c);
+    return b == one_ ? sum(a, c) : emit(Kernel::multiply_add, a, b, c);
+  }
+
+  int strong(int force) { return record_.strength < 0 ? force : product(value(record_.strength), force); }
+
+  /// Adds what a component with `reg` gives to its coordinates.
+  void add_shares(int component, int reg, Sums<int>& sums) {
+    for (const Share& share : record_.components[at(component)])
+      add(sums, share.coordinate, share.weight < 0 ? one_ : value(share.weight), reg);
+  }
+  void spread(int row, int component, int reg, Sums<std::pair<int, int>>& sums) {
+    for (const Share& share : record_.components[at(component)])
+      add(sums, std::pair(row, share.coordinate), share.weight < 0 ? one_ : value(share.weight), reg);
+  }
+  template <class Key>
+  void add(Sums<Key>& sums, const Key& key, int weight, int reg) {
+    const auto known = sums.find(key);
+    if (known == sums.end() || weight == one_)
+      sums.emplace(key, product(weight, reg));
+    else
+      known->second = product_and(weight, reg, known->second);
+  }
+
+  void take(const Sums<std::pair<int, int>>& sums, Target target) {
+    for (const auto& [place, reg] : sums)
+      program_.entries.push_back({target, place.first, place.second, reg});
+  }
+
+  int value(int node);
+  int new_value(int node);
+  int tangent(int node, int direction);
+  int new_tangent(int node, int direction);
+  int product_tangent(const Operation& own, int direction);
+  int quotient_tangent(int node, const Operation& own, int direction);
+  int power_tangent(const Operation& own, int direction);
+  int choice_tangent(const Operation& own, int direction);
+  int slope(int node);
+  int both(Kernel kernel, int of, bool second);
+
+  const Record& record_;
+  std::vector<char> zero_;
+  std::vector<Directions> active_;
+  std::vector<int> values_;                      ///< registers of the values by operation
+  std::map<std::pair<int, int>, int> tangents_;  ///< by operation and direction
+  std::map<int, int> slopes_;                    ///< derivatives of functions, by operation
+  std::map<std::pair<Kernel, int>, std::pair<int, int>> pairs_;
+  std::map<std::uint64_t, int> constants_;  ///< registers by the bits of the number
+  std::set<int> directions_;
+  Program program_;
+  int next_ = 0;
+  int one_ = -1, minus_one_ = -1;
+};
+
+int Compiler::value(int node) {
+  int& known = values_[at(node)];
+  if (known < 0) {
+    const int reg = new_value(node);
+    values_[at(node)] = reg;
+    return reg;
+  }
+  return known;
+}
+
+/// One of the two results of a kernel that has two.
+int Compiler::both(Kernel kernel, int of, bool second) {
+  const auto known = pairs_.find({kernel, of});
+  if (known != pairs_.end()) return second ? known->second.second : known->second.first;
+  const int x = value(of);
+  const int first = emit(kernel, x);
+  program_.instructions.back().second = next_;
+  pairs_[{kernel, of}] = {first, next_++};
+  return second ? first + 1 : first;
+}
+
+int Compiler::new_value(int node) {
+  const Operation& own = operation(node);
+  if (zero_[at(node)]) return constant(0.0);
+  const auto binary = [&](Kernel kernel) {
+    const int a = value(own.a);
+    return emit(kernel, a, value(own.b));
+  };
+  switch (own.op) {
+    case Operator::constant:
+      return constant(own.constant);
+    case Operator::number:
+      program_.numbers.push_back({own.a, next_});
+      return next_++;
+    case Operator::coordinate:
+      program_.coordinates.push_back({own.a, next_});
+      return next_++;
+    case Operator::component:
+      return value(own.a);
+    case Operator::add:
+      if (zero_[at(own.a)]) return value(own.b);
+      return zero_[at(own.b)] ? value(own.a) : binary(Kernel::add);
+    case Operator::subtract:
+      if (zero_[at(own.a)]) return negated(value(own.b));
+      return zero_[at(own.b)] ? value(own.a) : binary(Kernel::subtract);
+    case Operator::multiply:
+      return binary(Kernel::multiply);
+    case Operator::divide:
+      return binary(Kernel::divide);
+    case Operator::negate:
+      return negated(value(own.a));
+    case Operator::sqrt:
+      return emit(Kernel::sqrt, value(own.a));
+    case Operator::exp:
+      return emit(Kernel::exp, value(own.a));
+    case Operator::tanh:
+      return emit(Kernel::tanh, value(own.a));
+    case Operator::log:
+    case Operator::asin:
+    case Operator::acos:
+    case Operator::atan: {
+      const Kernel kernel = own.op == Operator::log    ? Kernel::log
+                            : own.op == Operator::asin ? Kernel::asin
+                            : own.op == Operator::acos ? Kernel::acos
+                                                       : Kernel::atan;
+      const int rate = slope(node);
+      return emit(kernel, value(own.a), rate);
+    }
+    case Operator::sin:
+    case Operator::cos:
+      return both(Kernel::sine_cosine, own.a, own.op == Operator::cos);
+    case Operator::sinh:
+    case Operator::cosh:
+      return both(Kernel::sinh_cosh, own.a, own.op == Operator::cosh);
+    case Operator::power:
+      return binary(Kernel::power);
+    case Operator::min:
+      return binary(Kernel::min);
+    case Operator::max:
+      return binary(Kernel::max);
+    case Operator::step:
+      return emit(Kernel::step, value(own.a));
+    case Operator::leading_angle:
+      return binary(Kernel::leading_angle);
+    case Operator::function: {
+      const int x = value(own.a);
+      const int reg = emit(Kernel::function, x, own.b);
+      program_.instructions.back().second = next_;
+      slopes_[node] = next_++;
+      return reg;
+    }
+    default:
+      throw std::logic_error("Compiler: an operation without value");
+  }
+}
+
+/// Derivative of a function of one argument, as a value.
+int Compiler::slope(int node) {
+  const auto known = slopes_.find(node);
+  if (known != slopes_.end()) return known->second;
+  const Operation& own = operation(node);
+  int reg = -1;
+  switch (own.op) {
+    case Operator::exp:
+      reg = value(node);
+      break;
+    case Operator::log:
+      reg = emit(Kernel::divide, one_, value(own.a));
+      break;
+    case Operator::sin:
+      reg = both(Kernel::sine_cosine, own.a, true);
+      break;
+    case Operator::sinh:
+      reg = both(Kernel::sinh_cosh, own.a, true);
+      break;
+    case Operator::cosh:
+      reg = both(Kernel::sinh_cosh, own.a, false);
+      break;
+    case Operator::tanh:
+      reg = emit(Kernel::multiply_behind, value(node), value(node), one_);
+      break;
+    case Operator::atan: {
+      const int x = value(own.a);
+      reg = emit(Kernel::divide, one_, emit(Kernel::multiply_add, x, x, one_));
+      break;
+    }
+    case Operator::asin:
+    case Operator::acos: {
+      const int x = value(own.a);
+      const int root = emit(Kernel::sqrt, emit(Kernel::multiply_behind, x, x, one_));
+      reg = emit(Kernel::divide, own.op == Operator::asin ? one_ : minus_one_, root);
+      break;
+    }
+    case Operator::function:
+      value(node);
+      return slopes_.at(node);
+    default:
+      throw std::logic_error("Compiler: a function without derivative");
+  }
+  slopes_[node] = reg;
+  return reg;
+}
+
+int Compiler::tangent(int node, int direction) {
+  const std::pair key(node, direction);
+  const auto known = tangents_.find(key);
+  if (known != tangents_.end()) return known->second;
+  const int reg = new_tangent(node, direction);
+  tangents_[key] = reg;
+  return reg;
+}
+
+int Compiler::new_tangent(int node, int direction) {
+  const Operation& own = operation(node);
+  switch (own.op) {
+    case Operator::component:
+    case Operator::rate:
+    case Operator::acceleration:
+      directions_.insert(direction);
+      return one_;
+    case Operator::add: {
+      if (!depends(own.a, direction)) return tangent(own.b, direction);
+      const int a = tangent(own.a, direction);
+      return depends(own.b, direction) ? sum(a, tangent(own.b, direction)) : a;
+    }
+    case Operator::subtract: {
+      if (!depends(own.a, direction)) return negated(tangent(own.b, direction));
+      const int a = tangent(own.a, direction);
+      return depends(own.b, direction) ? emit(Kernel::subtract, a, tangent(own.b, direction)) : a;
+    }
+    case Operator::negate:
+      return negated(tangent(own.a, direction));
+    case Operator::multiply:
+      return product_tangent(own, direction);
+    case Operator::divide:
+      return quotient_tangent(node, own, direction);
+    case Operator::sqrt: {
+      const auto known = slopes_.find(node);
+      const int twice = known != slopes_.end() ? known->second : product(constant(2.0), value(node));
+      slopes_[node] = twice;
+      return emit(Kernel::divide, tangent(own.a, direction), twice);
+    }
+    case Operator::cos: {
+      const int sine = both(Kernel::sine_cosine, own.a, false);
+      return negated(product(tangent(own.a, direction), sine));
+    }
+    case Operator::power:
+      return power_tangent(own, direction);
+    case Operator::min:
+    case Operator::max:
+      return choice_tangent(own, direction);
+    default: {
+      const int rate = slope(node);
+      return product(tangent(own.a, direction), rate);
+    }
+  }
+}
+
+int Compiler::product_tangent(const Operation& own, int direction) {
+  const bool by_a = depends(own.a, direction) && !zero_[at(own.b)];
+  const bool by_b = depends(own.b, direction) && !zero_[at(own.a)];
+  if (!by_a) return product(value(own.a), tangent(own.b, direction));
+  if (!by_b) return product(tangent(own.a, direction), value(own.b));
+  const int a = tangent(own.a, direction), b = tangent(own.b, direction);
+  const int left = value(own.a), right = value(own.b);
+  if (a == one_ || b == one_) return product_and(left, b, product(a, right));
+  return emit(Kernel::multiply_two, left, b, a, right);
+}
+
+/// (a / b)' = (a' - (a / b) b') / b
+int Compiler::quotient_tangent(int node, const Operation& own, int direction) {
+  const bool by_b = depends(own.b, direction) && !zero_[at(own.a)];
+  int rest = depends(own.a, direction) ? tangent(own.a, direction) : -1;
+  if (by_b) {
+    const int quotient = value(node), b = tangent(own.b, direction);
+    rest = rest < 0 ? negated(product(quotient, b)) : emit(Kernel::multiply_behind, quotient, b, rest);
+  }
+  return emit(Kernel::divide, rest, value(own.b));
+}
+
+/// (x^y)' = y x^(y - 1) x' + x^y log(x) y'
+int Compiler::power_tangent(const Operation& own, int direction) {
+  const int x = value(own.a), y = value(own.b);
+  int result = -1;
+  if (depends(own.a, direction)) {
+    const int lower = emit(Kernel::power, x, emit(Kernel::subtract, y, one_));
+    result = product(tangent(own.a, direction), product(y, lower));
+  }
+  if (!depends(own.b, direction)) return result;
+  const int logarithm = emit(Kernel::log, x, emit(Kernel::divide, one_, x));
+  const int by_y = product(tangent(own.b, direction), product(emit(Kernel::power, x, y), logarithm));
+  return result < 0 ? by_y : sum(result, by_y);
+}
+
+int Compiler::choice_tangent(const Operation& own, int direction) {
+  const auto side = [&](int node) {
+    return depends(node, direction) ? tangent(node, direction) : constant(0.0);
+  };
+  const int a = side(own.a), b = side(own.b);
+  const Kernel kernel = own.op == Operator::min ? Kernel::choose_min : Kernel::choose_max;
+  return emit(kernel, value(own.a), value(own.b), a, b);
+}
+
+/// Calls visit(register) for all operands.
+template <class Visit>
+void for_each_operand(Instruction& instruction, Visit visit) {
+  visit(instruction.a);
+  if (instruction.kernel != Kernel::function) visit(instruction.b);
+  visit(instruction.c);
+  visit(instruction.d);
+}
+
+/// Calls visit(register) for everything that is wanted in the end.
+template <class Visit>
+void for_each_output(Program& program, Visit visit) {
+  for (LocalValue& force : program.forces) visit(force.slot);
+  for (LocalValue& value : program.values) visit(value.slot);
+  for (Entry& entry : program.entries) visit(entry.slot);
+  visit(program.residual);
+}
+
+/// Gives registers slots, one after the last use of another: what is computed stays in the cache.
+class SlotAssignment {
+ public:
+  SlotAssignment(Program& program, int n_registers)
+      : program_(program),
+        last_use_(static_cast<std::size_t>(n_registers), -1),
+        slots_(last_use_.size(), -1) {}
+
+  void run() {
+    const int end = static_cast<int>(program_.instructions.size());
+    const auto use = [&](int reg, int when) {
+      if (reg >= 0) last_use_[static_cast<std::size_t>(reg)] = when;
+    };
+    for (int i = 0; i < end; ++i)
+      for_each_operand(program_.instructions[static_cast<std::size_t>(i)], [&](int reg) { use(reg, i); });
+    for (Instruction& constant : program_.constants) use(constant.out, end);
+    for_each_output(program_, [&](int reg) { use(reg, end); });
+    for (Instruction& constant : program_.constants) define(constant.out);
+    for (auto* inputs : {&program_.numbers, &program_.coordinates}) {
+      for (LocalValue& input : *inputs) define(input.slot);
+    }
+    for (int i = 0; i < end; ++i) assign(program_.instructions[static_cast<std::size_t>(i)], i);
+    for_each_output(program_, [&](int& reg) { replace(reg); });
+    program_.n_slots = n_slots_;
+  }
+
+ private:
+  /// A result has no slot of an operand: kernels of series read these while they write.
+  void assign(Instruction& instruction, int i) {
+    std::vector<int> done;
+    for_each_operand(instruction, [&](int& reg) {
+      if (reg >= 0 && last_use_[static_cast<std::size_t>(reg)] == i) done.push_back(reg);
+      replace(reg);
+    });
+    std::sort(done.begin(), done.end());
+    done.erase(std::unique(done.begin(), done.end()), done.end());
+    const int results[2] = {instruction.out, instruction.second};
+    define(instruction.out);
+    if (instruction.second >= 0) define(instruction.second);
+    for (const int reg : done) free_.push_back(slots_[static_cast<std::size_t>(reg)]);
+    for (const int reg : results) {
+      if (reg >= 0 && last_use_[static_cast<std::size_t>(reg)] < 0)
+        free_.push_back(slots_[static_cast<std::size_t>(reg)]);
+    }
+  }
+
+  void define(int& reg) {
+    int slot = n_slots_;
+    if (free_.empty()) {
+      ++n_slots_;
+    } else {
+      slot = free_.back();
+      free_.pop_back();
+    }
+    slots_[static_cast<std::size_t>(reg)] = slot;
+    reg = slot;
+  }
+  void replace(int& reg) const {
+    if (reg >= 0) reg = slots_[static_cast<std::size_t>(reg)];
+  }
+
+  Program& program_;
+  std::vector<int> last_use_;
+  std::vector<int> slots_;
+  std::vector<int> free_;
+  int n_slots_ = 0;
+};
+
+Program Compiler::finish() {
+  program_.n_directions = static_cast<int>(directions_.size());
+  SlotAssignment(program_, next_).run();
+  return std::move(program_);
+}
+
+}  // namespace
+
+Program value_program(const Record& record) {
+  Compiler compiler(record);
+  compiler.add_forces();
+  return compiler.finish();
+}
+
+Program derivative_program(const Record& record) {
+  Compiler compiler(record);
+  compiler.add_entries();
+  return compiler.finish();
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,91 @@
+// A scalar that writes down what is computed with it. A force that is a template over its scalar becomes a
+// list of operations (record.hpp) when it is called once with this scalar.
+//
+// Recorded values have no number, so they cannot be compared: what depends on numbers is an operation (`abs`,
+// `min`, `max`, `step`), which chooses for every element in every evaluation.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "eigentrail/core/series.hpp"
+
+namespace eigentrail {
+
+class Recorder;
+class SmoothFunction;
+
+/// A literal of the source, or the result of an operation of a recorder.
+class Recorded {
+ public:
+  Recorded(double literal = 0.0) : literal_(literal) {}  // NOLINT: numbers of the source are scalars
+  Recorded(Recorder& recorder, int node) : recorder_(&recorder), node_(node) {}
+
+  Recorder* recorder() const { return recorder_; }  ///< null: a literal
+  int node() const { return node_; }
+  double literal() const { return literal_; }
+  bool is_literal(double value) const { return recorder_ == nullptr && literal_ == value; }
+
+  Recorded& operator+=(const Recorded& b) { return *this = *this + b; }
+  Recorded& operator-=(const Recorded& b) { return *this = *this - b; }
+  Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
+  Recorded& operator/=(const Recorded& b) { return *this = *this / b; }
+
+  // Literals are computed at once. Sums with zero and products with zero or one are no operations.
+  friend Recorded operator+(const Recorded& a, const Recorded& b);
+  friend Recorded operator-(const Recorded& a, const Recorded& b);
+  friend Recorded operator*(const Recorded& a, const Recorded& b);
+  friend Recorded operator/(const Recorded& a, const Recorded& b);
+  friend Recorded operator-(const Recorded& a);
+
+ private:
+  Recorder* recorder_ = nullptr;
+  int node_ = -1;
+  double literal_ = 0.0;
+};
+
+Recorded sqrt(const Recorded& x);
+Recorded exp(const Recorded& x);
+Recorded log(const Recorded& x);
+Recorded sin(const Recorded& x);
+Recorded cos(const Recorded& x);
+Recorded tan(const Recorded& x);
+Recorded sinh(const Recorded& x);
+Recorded cosh(const Recorded& x);
+Recorded tanh(const Recorded& x);
+Recorded asin(const Recorded& x);
+Recorded acos(const Recorded& x);
+Recorded atan(const Recorded& x);
+
+/// x^y for x > 0. If y is constant along the path and an integer with |y| <= 64, for every x.
+Recorded pow(const Recorded& x, const Recorded& y);
+
+Recorded abs(const Recorded& x);
+Recorded min(const Recorded& a, const Recorded& b);
+Recorded max(const Recorded& a, const Recorded& b);
+/// 1 for x >= 0, else 0. Constant on either side.
+Recorded step(const Recorded& x);
+
+/// Angle (rad) of the vector (cosine, sine), as the function of series of this name.
+Recorded angle_of(const Recorded& sine, const Recorded& cosine);
+
+/// f(x) for a function that is known by its Taylor coefficients. It must outlive all evaluations.
+Recorded apply(const SmoothFunction& f, const Recorded& x);
+
+}  // namespace eigentrail
+
+template <>
+struct Eigen::NumTraits<eigentrail::Recorded> : Eigen::GenericNumTraits<double> {
+  using Real = eigentrail::Recorded;
+  using NonInteger = eigentrail::Recorded;
+  using Nested = eigentrail::Recorded;
+  using Literal = double;
+  enum { RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};
+template <class Operation>
+struct Eigen::ScalarBinaryOpTraits<eigentrail::Recorded, double, Operation> {
+  using ReturnType = eigentrail::Recorded;
+};
+template <class Operation>
+struct Eigen::ScalarBinaryOpTraits<double, eigentrail::Recorded, Operation> {
+  using ReturnType = eigentrail::Recorded;
+};

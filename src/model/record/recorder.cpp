@@ -1,0 +1,213 @@
+#include "model/record/recorder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace eigentrail {
+
+std::size_t Recorder::Hash::operator()(const Operation& operation) const {
+  std::uint64_t hash = static_cast<std::uint64_t>(operation.op);
+  for (const std::uint64_t part : {static_cast<std::uint64_t>(static_cast<std::uint32_t>(operation.a)),
+                                   static_cast<std::uint64_t>(static_cast<std::uint32_t>(operation.b)),
+                                   std::bit_cast<std::uint64_t>(operation.constant)}) {
+    hash = (hash ^ part) * 0x9e3779b97f4a7c15U;  // golden ratio, as in Fibonacci hashing
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+Recorded Recorder::push(Operation operation) {
+  const auto [at, is_new] = known_.emplace(operation, static_cast<int>(record_.operations.size()));
+  if (is_new) record_.operations.push_back(operation);
+  return {*this, at->second};
+}
+
+int Recorder::node(const Recorded& value) {
+  if (value.recorder() == nullptr) return push({Operator::constant, -1, -1, value.literal()}).node();
+  if (value.recorder() != this) throw std::logic_error("Recorder: a value of another recorder");
+  return value.node();
+}
+
+Recorded Recorder::number(int slot) {
+  const auto [at, is_new] = number_index_.emplace(slot, record_.n_numbers);
+  if (is_new) {
+    numbers_.push_back(slot);
+    ++record_.n_numbers;
+  }
+  return push({Operator::number, at->second});
+}
+
+Recorded Recorder::coordinate(int index) {
+  const auto [at, is_new] = coordinate_index_.emplace(index, record_.n_coordinates);
+  if (is_new) {
+    coordinates_.push_back(index);
+    ++record_.n_coordinates;
+  }
+  return push({Operator::coordinate, at->second});
+}
+
+Recorded Recorder::constant(double value) {
+  return push({Operator::constant, -1, -1, value});
+}
+
+Recorded Recorder::component(const std::vector<std::pair<int, Recorded>>& shares) {
+  Recorded value;
+  std::vector<Share> own;
+  for (const auto& [index, weight] : shares) {
+    const Recorded x = coordinate(index);
+    value += weight * x;
+    own.push_back({record_.operations[static_cast<std::size_t>(x.node())].a,
+                   weight.is_literal(1.0) ? -1 : node(weight)});
+  }
+  record_.components.push_back(std::move(own));
+  return push({Operator::component, node(value), n_components() - 1});
+}
+
+Recorded Recorder::rate(int component) {
+  return push({Operator::rate, -1, component});
+}
+
+Recorded Recorder::acceleration(int component) {
+  return push({Operator::acceleration, -1, component});
+}
+
+Recorded Recorder::apply(const SmoothFunction& f, const Recorded& x) {
+  auto at = std::find(functions_.begin(), functions_.end(), &f);
+  if (at == functions_.end()) {
+    functions_.push_back(&f);
+    ++record_.n_functions;
+    at = functions_.end() - 1;
+  }
+  return push({Operator::function, node(x), static_cast<int>(at - functions_.begin())});
+}
+
+Recorded Recorder::operation(Operator op, const Recorded& a) {
+  return push({op, node(a)});
+}
+
+Recorded Recorder::operation(Operator op, const Recorded& a, const Recorded& b) {
+  const int left = node(a);
+  return push({op, left, node(b)});
+}
+
+namespace {
+
+Recorder* recorder_of(const Recorded& a, const Recorded& b) {
+  return a.recorder() != nullptr ? a.recorder() : b.recorder();
+}
+
+/// A function of a recorded value, or its value at a literal.
+template <class Function>
+Recorded unary(Operator op, const Recorded& x, Function function) {
+  if (x.recorder() == nullptr) return function(x.literal());
+  return x.recorder()->operation(op, x);
+}
+
+template <class Function>
+Recorded binary(Operator op, const Recorded& a, const Recorded& b, Function function) {
+  Recorder* const recorder = recorder_of(a, b);
+  if (recorder == nullptr) return function(a.literal(), b.literal());
+  return recorder->operation(op, a, b);
+}
+
+}  // namespace
+
+Recorded operator+(const Recorded& a, const Recorded& b) {
+  if (a.is_literal(0.0)) return b;
+  if (b.is_literal(0.0)) return a;
+  return binary(Operator::add, a, b, [](double x, double y) { return x + y; });
+}
+
+Recorded operator-(const Recorded& a, const Recorded& b) {
+  if (a.is_literal(0.0)) return -b;
+  if (b.is_literal(0.0)) return a;
+  return binary(Operator::subtract, a, b, [](double x, double y) { return x - y; });
+}
+
+Recorded operator*(const Recorded& a, const Recorded& b) {
+  if (a.is_literal(0.0) || b.is_literal(0.0)) return 0.0;
+  if (a.is_literal(1.0)) return b;
+  if (b.is_literal(1.0)) return a;
+  if (a.is_literal(-1.0)) return -b;
+  if (b.is_literal(-1.0)) return -a;
+  return binary(Operator::multiply, a, b, [](double x, double y) { return x * y; });
+}
+
+Recorded operator/(const Recorded& a, const Recorded& b) {
+  if (a.is_literal(0.0) && b.recorder() != nullptr) return 0.0;
+  if (b.is_literal(1.0)) return a;
+  return binary(Operator::divide, a, b, [](double x, double y) { return x / y; });
+}
+
+Recorded operator-(const Recorded& a) {
+  return unary(Operator::negate, a, [](double x) { return -x; });
+}
+
+Recorded sqrt(const Recorded& x) {
+  return unary(Operator::sqrt, x, [](double v) { return std::sqrt(v); });
+}
+Recorded exp(const Recorded& x) {
+  return unary(Operator::exp, x, [](double v) { return std::exp(v); });
+}
+Recorded log(const Recorded& x) {
+  return unary(Operator::log, x, [](double v) { return std::log(v); });
+}
+Recorded sin(const Recorded& x) {
+  return unary(Operator::sin, x, [](double v) { return std::sin(v); });
+}
+Recorded cos(const Recorded& x) {
+  return unary(Operator::cos, x, [](double v) { return std::cos(v); });
+}
+Recorded tan(const Recorded& x) {
+  return sin(x) / cos(x);
+}
+Recorded sinh(const Recorded& x) {
+  return unary(Operator::sinh, x, [](double v) { return std::sinh(v); });
+}
+Recorded cosh(const Recorded& x) {
+  return unary(Operator::cosh, x, [](double v) { return std::cosh(v); });
+}
+Recorded tanh(const Recorded& x) {
+  return unary(Operator::tanh, x, [](double v) { return std::tanh(v); });
+}
+Recorded asin(const Recorded& x) {
+  return unary(Operator::asin, x, [](double v) { return std::asin(v); });
+}
+Recorded acos(const Recorded& x) {
+  return unary(Operator::acos, x, [](double v) { return std::acos(v); });
+}
+Recorded atan(const Recorded& x) {
+  return unary(Operator::atan, x, [](double v) { return std::atan(v); });
+}
+Recorded pow(const Recorded& x, const Recorded& y) {
+  return binary(Operator::power, x, y, [](double v, double w) { return std::pow(v, w); });
+}
+Recorded min(const Recorded& a, const Recorded& b) {
+  return binary(Operator::min, a, b, [](double x, double y) { return y < x ? y : x; });
+}
+Recorded max(const Recorded& a, const Recorded& b) {
+  return binary(Operator::max, a, b, [](double x, double y) { return x < y ? y : x; });
+}
+Recorded step(const Recorded& x) {
+  return unary(Operator::step, x, [](double v) { return v >= 0.0 ? 1.0 : 0.0; });
+}
+Recorded abs(const Recorded& x) {
+  return (2.0 * step(x) - 1.0) * x;
+}
+
+Recorded angle_of(const Recorded& sine, const Recorded& cosine) {
+  const Recorded turn =
+      binary(Operator::leading_angle, sine, cosine, [](double s, double c) { return std::atan2(s, c); });
+  const Recorded c = cos(turn);
+  const Recorded s = sin(turn);
+  return turn + atan((sine * c - cosine * s) / (cosine * c + sine * s));
+}
+
+Recorded apply(const SmoothFunction& f, const Recorded& x) {
+  if (x.recorder() == nullptr) throw std::logic_error("a function of a literal");
+  return x.recorder()->apply(f, x);
+}
+
+}  // namespace eigentrail

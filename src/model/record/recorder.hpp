@@ -1,0 +1,60 @@
+// Writes a record while a force is called with Recorded scalars.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "model/record/record.hpp"
+#include "model/record/recorded.hpp"
+
+namespace eigentrail {
+
+/// Equal operations are recorded once. Must outlive the scalars that it gives.
+class Recorder {
+ public:
+  Recorder() = default;
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// A number of the model by its slot. Numbers are inputs in the order of their first use.
+  Recorded number(int slot);
+  /// A constant that is an operation: computed with the precision of each evaluation.
+  Recorded constant(double value);
+  /// A coordinate of the model by its index, likewise.
+  Recorded coordinate(int index);
+  /// A new component, sum of weight * coordinate.
+  Recorded component(const std::vector<std::pair<int, Recorded>>& shares);
+  Recorded rate(int component);
+  Recorded acceleration(int component);
+  Recorded apply(const SmoothFunction& f, const Recorded& x);
+
+  Recorded operation(Operator op, const Recorded& a);
+  Recorded operation(Operator op, const Recorded& a, const Recorded& b);
+
+  /// The operation that is a value; literals become constants.
+  int node(const Recorded& value);
+
+  int n_components() const { return static_cast<int>(record_.components.size()); }
+
+  /// The record, for the caller to set its outputs; and what its inputs are in the model.
+  Record& record() { return record_; }
+  const std::vector<int>& numbers() const { return numbers_; }
+  const std::vector<int>& coordinates() const { return coordinates_; }
+  const std::vector<const SmoothFunction*>& functions() const { return functions_; }
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Operation& operation) const;
+  };
+
+  Recorded push(Operation operation);
+  int input(Operator op, std::vector<int>& all, int index, int& count);
+
+  Record record_;
+  std::unordered_map<Operation, int, Hash> known_;
+  std::vector<int> numbers_, coordinates_;
+  std::unordered_map<int, int> number_index_, coordinate_index_;
+  std::vector<const SmoothFunction*> functions_;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,275 @@
+#include "model/recorded_equations.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "model/record/recorder.hpp"
+
+namespace eigentrail {
+
+int Pattern::position(int at_row, int at_column) const {
+  if (!is_sparse()) return at_column * rows + at_row;
+  const auto begin = row.begin() + first[static_cast<std::size_t>(at_column)];
+  const auto end = row.begin() + first[static_cast<std::size_t>(at_column) + 1];
+  return static_cast<int>(std::lower_bound(begin, end, at_row) - row.begin());
+}
+
+namespace {
+
+/// Records one element or one row of a constraint.
+class ElementRecorder {
+ public:
+  explicit ElementRecorder(const MultibodyData& data) : data_(data) {}
+
+  using View = ElementView<Recorded>;
+
+  /// The moving vectors and states, as components in this order.
+  View view(const std::vector<Place>& arguments, int first_state, int n_states) {
+    std::vector<MovingVector<Recorded>> vectors(arguments.size());
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        std::vector<std::pair<int, Recorded>> shares;
+        for (const Term& term : arguments[i].terms)
+          shares.emplace_back(3 * term.triple + axis,
+                              term.weight.slot < 0 ? Recorded(1.0) : recorder_.number(term.weight.slot));
+        vectors[i].position[axis] = recorder_.component(shares);
+        vectors[i].velocity[axis] = recorder_.rate(recorder_.n_components() - 1);
+        vectors[i].acceleration[axis] = recorder_.acceleration(recorder_.n_components() - 1);
+      }
+    }
+    std::vector<MovingState<Recorded>> states;
+    for (int i = 0; i < n_states; ++i) {
+      const Recorded value = recorder_.component({{3 * data_.n_triples + first_state + i, Recorded(1.0)}});
+      states.push_back({value, recorder_.rate(recorder_.n_components() - 1)});
+    }
+    return View([this](int slot) { return recorder_.number(slot); }, std::move(vectors), std::move(states));
+  }
+
+  Recorded multiplier(int row) { return recorder_.number(static_cast<int>(data_.quantities.size()) + row); }
+
+  void set_forces(const View& view) {
+    const auto add = [&](const Recorded& force) {
+      recorder_.record().forces.push_back(force.is_literal(0.0) ? -1 : recorder_.node(force));
+    };
+    for (const MovingVector<Recorded>& vector : view.vectors()) {
+      for (int axis = 0; axis < 3; ++axis) add(vector.force[axis]);
+    }
+    for (const MovingState<Recorded>& state : view.states()) add(state.force);
+  }
+  void set_strength(const Quantity& strength) {
+    if (strength.slot >= 0) recorder_.record().strength = recorder_.node(recorder_.number(strength.slot));
+  }
+  void set_residual(const Recorded& residual) { recorder_.record().residual = recorder_.node(residual); }
+
+  Recorder& recorder() { return recorder_; }
+
+ private:
+  const MultibodyData& data_;
+  Recorder recorder_;
+};
+
+/// Collects records into batches: elements of one kind with equal records are one.
+class BatchCollector {
+ public:
+  explicit BatchCollector(const MultibodyData& data) {
+    equations_.n = data.n_coordinates;
+    equations_.m = data.n_constraints;
+    equations_.counts.assign(Elements::kinds, 0);
+  }
+
+  /// A name for messages; it is that of what is added next.
+  void begin(std::size_t kind, const std::string& label) {
+    kind_ = kind;
+    equations_.labels.push_back(label);
+    if (kind >= equations_.counts.size()) equations_.counts.resize(kind + 1, 0);
+    ++equations_.counts[kind];
+  }
+
+  /// `row`: of its residual; -1: it has none.
+  void add(Recorder& recorder, int row) {
+    Batch& batch = batch_of(recorder.record());
+    ++batch.size;
+    const auto append = [](auto& all, const auto& own) { all.insert(all.end(), own.begin(), own.end()); };
+    append(batch.numbers, recorder.numbers());
+    append(batch.coordinates, recorder.coordinates());
+    append(batch.functions, recorder.functions());
+    if (row >= 0) batch.rows.push_back(row);
+    batch.labels.push_back(static_cast<int>(equations_.labels.size()) - 1);
+  }
+
+  RecordedEquations finish() {
+    for (std::size_t target = 0; target < equations_.patterns.size(); ++target)
+      equations_.patterns[target] = pattern(static_cast<Target>(target));
+    for (Batch& batch : equations_.batches) {
+      for_each_entry(batch, [&](const Entry& entry, int row, int column) {
+        batch.positions.push_back(
+            equations_.patterns[static_cast<std::size_t>(entry.target)].position(row, column));
+      });
+    }
+    return std::move(equations_);
+  }
+
+ private:
+  Batch& batch_of(const Record& record) {
+    std::vector<std::size_t>& similar = by_size_[record.operations.size()];
+    for (const std::size_t i : similar) {
+      Batch& batch = equations_.batches[i];
+      if (batch.kind == kind_ && batch.record == record) return batch;
+    }
+    similar.push_back(equations_.batches.size());
+    Batch& batch = equations_.batches.emplace_back();
+    batch.kind = kind_;
+    batch.record = record;
+    batch.values = value_program(record);
+    batch.derivatives = derivative_program(record);
+    return batch;
+  }
+
+  /// Calls visit(entry, row, column) for the entries of all elements of a batch.
+  template <class Visit>
+  static void for_each_entry(const Batch& batch, Visit visit) {
+    const auto n = static_cast<std::size_t>(batch.record.n_coordinates);
+    for (std::size_t element = 0; element < batch.size; ++element) {
+      const auto coordinate = [&](int i) {
+        return batch.coordinates[element * n + static_cast<std::size_t>(i)];
+      };
+      for (const Entry& entry : batch.derivatives.entries) {
+        const bool of_residual = entry.target == Target::constraints;
+        visit(entry, of_residual ? batch.rows[element] : coordinate(entry.row), coordinate(entry.column));
+      }
+    }
+  }
+
+  Pattern pattern(Target target) const {
+    Pattern result{target == Target::constraints ? equations_.m : equations_.n, equations_.n, {}, {}};
+    if (equations_.n < sparse_from) return result;
+    std::vector<std::pair<int, int>> places;  // column, row
+    for (const Batch& batch : equations_.batches) {
+      for_each_entry(batch, [&](const Entry& entry, int row, int column) {
+        if (entry.target == target) places.emplace_back(column, row);
+      });
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    result.first.assign(static_cast<std::size_t>(equations_.n) + 1, 0);
+    for (const auto& [column, row] : places) {
+      ++result.first[static_cast<std::size_t>(column) + 1];
+      result.row.push_back(row);
+    }
+    for (std::size_t i = 1; i < result.first.size(); ++i) result.first[i] += result.first[i - 1];
+    return result;
+  }
+
+  RecordedEquations equations_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> by_size_;
+  std::size_t kind_ = 0;
+};
+
+/// One row of a constraint. Its forces are -lambda times its gradient, so their derivatives are those of
+/// A^T lambda.
+void record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) {
+  ConstraintRow own = row;
+  std::vector<Place> arguments;
+  std::vector<Place*> places;
+  for (Difference* side : {&own.a, own.b ? &*own.b : nullptr}) {
+    if (side == nullptr) continue;
+    places.push_back(&side->first);
+    if (side->second) places.push_back(&*side->second);
+  }
+  for (Place* place : places) {
+    if (!place->moves()) continue;
+    place->argument = static_cast<int>(arguments.size());
+    arguments.push_back(*place);
+  }
+  ElementView<Recorded> at = recorder.view(arguments, 0, 0);
+  const Recorded lambda = recorder.multiplier(index);
+  const auto value = [&](const Difference& side) -> Vec3<Recorded> {
+    const Vec3<Recorded> first = at.position(side.first);
+    return side.second ? Vec3<Recorded>(first - at.position(*side.second)) : first;
+  };
+  const auto add = [&](const Difference& side, const Vec3<Recorded>& gradient) {
+    const Vec3<Recorded> force = lambda * gradient;
+    at.add_force(side.first, -force);
+    if (side.second) at.add_force(*side.second, force);
+  };
+  const Vec3<Recorded> a = value(own.a);
+  const Recorded offset = at.value(own.offset);
+  if (own.b) {
+    const Vec3<Recorded> b = value(*own.b);
+    add(own.a, b);
+    add(*own.b, a);
+    recorder.set_residual(a.dot(b) - offset);
+  } else {
+    add(own.a, Vec3<Recorded>::Unit(own.axis));
+    recorder.set_residual(a[own.axis] - offset);
+  }
+  recorder.set_forces(at);
+}
+
+/// An equation of its own, as a batch of one.
+RecordedEquations single_equation(const MultibodyData& data, ElementRecorder& recorder) {
+  MultibodyData one;
+  one.n_coordinates = data.n_coordinates;
+  one.n_constraints = 1;
+  BatchCollector collector(one);
+  collector.begin(0, "");
+  collector.add(recorder.recorder(), 0);
+  return collector.finish();
+}
+
+}  // namespace
+
+RecordedEquations record_equations(const MultibodyData& data, const Elements& elements,
+                                   const std::vector<Constraint>& constraints) {
+  BatchCollector collector(data);
+  elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t kind) {
+    for (const Placed<Element>& placed : list) {
+      ElementRecorder recorder(data);
+      collector.begin(kind, placed.label);
+      ElementView<Recorded> view =
+          recorder.view(placed.arguments, placed.first_state, number_of_states<Element>());
+      placed.element.force(view);
+      recorder.set_forces(view);
+      recorder.set_strength(placed.strength);
+      collector.add(recorder.recorder(), -1);
+    }
+  });
+  for (const Constraint& constraint : constraints) {
+    collector.begin(Elements::kinds + static_cast<std::size_t>(constraint.kind), constraint.label);
+    int index = constraint.first_row;
+    for (const ConstraintRow& row : constraint.rows) {
+      ElementRecorder recorder(data);
+      record_row(recorder, row, index);
+      collector.add(recorder.recorder(), index++);
+    }
+  }
+  return collector.finish();
+}
+
+RecordedEquations record_equation(const MultibodyData& data, const TrimPlace& place) {
+  ElementRecorder recorder(data);
+  Place own = place.place;
+  own.argument = 0;
+  const ElementView<Recorded> at = recorder.view({own}, 0, 0);
+  recorder.set_residual(at.position(own)[place.axis.index]);
+  return single_equation(data, recorder);
+}
+
+RecordedEquations record_equation(const MultibodyData& data, const TrimAngle& angle) {
+  ElementRecorder recorder(data);
+  const ElementView<Recorded> at = recorder.view(angle.arguments, 0, 0);
+  const detail::AngleAt<Recorded> theta(at, angle.angle);
+  recorder.set_residual(angle_of(theta.sine, theta.cosine));
+  return single_equation(data, recorder);
+}
+
+void add_costs(const RecordedEquations& equations, std::vector<Effect>& effects) {
+  for (const Batch& batch : equations.batches) {
+    Effect& effect = effects[batch.kind];
+    ++effect.records;
+    effect.directions = std::max(effect.directions, batch.derivatives.n_directions);
+    effect.operations += static_cast<int>(batch.size * batch.derivatives.instructions.size());
+  }
+}
+
+}  // namespace eigentrail
