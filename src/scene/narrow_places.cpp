@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include "scene/interval.hpp"
 
@@ -51,6 +52,42 @@ double scale_of(const Described& f, double begin, double end) {
   }
   return largest;
 }
+
+/// SI values of all parameters where the traced one has a value, or as series about an interval of its
+/// values. All expressions are looked at in the same places first, so they are kept.
+class ParametersAlong {
+ public:
+  ParametersAlong(const Parameters& parameters, const Vector& values, int traced)
+      : parameters_(parameters), values_(values), traced_(static_cast<std::size_t>(traced)) {}
+
+  const std::vector<Enclosure>& at(const Interval& p) {
+    std::vector<Enclosure>& known = enclosures_[{p.lower, p.upper}];
+    if (!known.empty()) return known;
+    Enclosure series(p);
+    series[1] = 1.0;
+    return known = si(series);
+  }
+  const std::vector<double>& at(double p) {
+    std::vector<double>& known = numbers_[p];
+    return known.empty() ? known = si(p) : known;
+  }
+
+ private:
+  template <class Scalar>
+  std::vector<Scalar> si(const Scalar& p) const {
+    std::vector<Scalar> all;
+    for (const double value : values_) all.emplace_back(value);
+    all[traced_] = p;
+    parameters_.to_si(std::span<Scalar>(all));
+    return all;
+  }
+
+  const Parameters& parameters_;
+  const Vector& values_;
+  std::size_t traced_;
+  std::map<std::pair<double, double>, std::vector<Enclosure>> enclosures_;
+  std::map<double, std::vector<double>> numbers_;
+};
 
 /// The range in pieces on each of which the function is described by a polynomial.
 class Partition {
@@ -109,19 +146,7 @@ std::vector<double> narrow_places(const Parameters& parameters, const Vector& va
                                   double to, std::span<const Expression> expressions) {
   const double begin = std::min(from, to);
   const double end = std::max(from, to);
-  const auto si_values = [&](auto p) {
-    using Scalar = decltype(p);
-    std::vector<Scalar> si;
-    for (const double value : values) si.emplace_back(value);
-    si[static_cast<std::size_t>(traced)] = p;
-    parameters.to_si(std::span<Scalar>(si));
-    return si;
-  };
-  const auto about = [](const Interval& p) {
-    Enclosure series(p);
-    series[1] = 1.0;
-    return series;
-  };
+  ParametersAlong along(parameters, values, traced);
   std::vector<Piece> found;
   const auto look_at = [&](const Described& f) {
     for (const Piece& piece : shortest_of(Partition(f, begin, end).pieces(), end - begin)) {
@@ -133,19 +158,12 @@ std::vector<double> narrow_places(const Parameters& parameters, const Vector& va
   };
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (static_cast<int>(i) == traced || !parameters.depends_on(static_cast<int>(i), traced)) continue;
-    look_at({[&](const Interval& p) { return si_values(about(p))[i]; },
-             [&](double p) { return si_values(p)[i]; }});
+    look_at({[&](const Interval& p) { return along.at(p)[i]; }, [&](double p) { return along.at(p)[i]; }});
   }
   for (const Expression& expression : expressions) {
     if (!parameters.depends_on(expression, traced)) continue;
-    look_at({[&](const Interval& p) {
-               const std::vector<Enclosure> si = si_values(about(p));
-               return expression.evaluate(std::span<const Enclosure>(si));
-             },
-             [&](double p) {
-               const std::vector<double> si = si_values(p);
-               return expression.evaluate(std::span<const double>(si));
-             }});
+    look_at({[&](const Interval& p) { return expression.evaluate(std::span<const Enclosure>(along.at(p))); },
+             [&](double p) { return expression.evaluate(std::span<const double>(along.at(p))); }});
   }
   std::vector<double> places;
   for (const Piece& piece : found) places.push_back(piece.middle());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -18,8 +19,8 @@ namespace {
 /// Residuals below this fraction of their scale are at the rounding level.
 constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
-/// Iterations of KINSOL after which the error-oriented method tries from the guess. Where KINSOL's line
-/// search works it takes fewer.
+/// Iterations after which another method tries from the guess. Where KINSOL's line search works it takes
+/// fewer.
 constexpr int patience = 25;
 /// From this number of coordinates on the error-oriented method is the first one: the longer a chain of stiff
 /// elements, the shorter the steps of KINSOL's line search.
@@ -158,47 +159,39 @@ void report_residual(const Model& model, const SteadyResidual& residual, const S
   }
 }
 
-/// KINSOL; where that takes long at a first guess, the error-oriented method from the same guess. Large
-/// models by the error-oriented method first. On the path (no `options.relax`) only a solution beside the
-/// guess will do.
+/// At a first guess KINSOL, in large models the error-oriented method; where that takes long, the load is
+/// added in steps from the same guess, because damped steps from a far guess become shorter and shorter. On
+/// the path (no `options.relax`) only a solution beside the guess will do.
 NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, const SteadyOptions& options,
                                Vector& u) {
-  const Vector guess = u;
   const bool large = n >= many_coordinates;
-  // A method that leaves u where it is if it fails. `before`: iterations so far.
-  const auto from_the_guess = [&](const auto& solve, int before) {
-    Vector other = guess;
-    NonlinearResult found = solve(other);
-    found.iterations += before;
-    if (found.converged) u = std::move(other);
-    return found;
+  const auto kinsol = [&](int iterations) {
+    return
+        [&, iterations](Vector& v) { return solve_with_kinsol(problem, options.tolerance, iterations, v); };
   };
+  const auto error_oriented = [&](const ErrorOrientedOptions& how) {
+    return [&, how](Vector& v) { return solve_error_oriented(problem, n, how, v); };
+  };
+  const auto load_steps = [&](Vector& v) { return solve_in_load_steps(problem, n, {}, v); };
+  if (!options.relax)
+    return large ? error_oriented({.least_damping = 1.0})(u) : kinsol(options.max_iterations)(u);
+  const int first = std::min(patience, options.max_iterations);
+  std::vector<std::function<NonlinearResult(Vector&)>> turns;
+  if (!large) turns.push_back(kinsol(first));
+  turns.push_back(error_oriented({.max_iterations = first}));
+  turns.push_back(load_steps);
+  turns.push_back(error_oriented({}));
+  if (options.max_iterations > first) turns.push_back(kinsol(options.max_iterations));
   NonlinearResult result;
-  if (large) {
-    // Damped steps from a far guess become shorter and shorter; few of them are tried before the load is
-    // added in steps.
-    result = options.relax ? solve_error_oriented(problem, n, {.max_iterations = patience}, u)
-                           : solve_error_oriented(problem, n, {.least_damping = 1.0}, u);
-    if (result.converged || !options.relax) return result;
-    const NonlinearResult in_steps =
-        from_the_guess([&](Vector& v) { return solve_in_load_steps(problem, n, {}, v); }, result.iterations);
-    if (in_steps.converged) return in_steps;
-    result = solve_error_oriented(problem, n, {}, u);
-    result.iterations += in_steps.iterations;
-    if (result.converged) return result;
-    u = guess;
+  for (const auto& turn : turns) {
+    Vector from_the_guess = u;
+    NonlinearResult found = turn(from_the_guess);
+    found.iterations += result.iterations;
+    result = std::move(found);
+    if (!result.converged) continue;
+    u = std::move(from_the_guess);
+    break;
   }
-  const int first = options.relax ? std::min(patience, options.max_iterations) : options.max_iterations;
-  const int before = result.iterations;
-  result = solve_with_kinsol(problem, options.tolerance, first, u);
-  result.iterations += before;
-  if (result.converged || !options.relax || large) return result;
-  const NonlinearResult damped =
-      from_the_guess([&](Vector& v) { return solve_error_oriented(problem, n, {}, v); }, result.iterations);
-  if (damped.converged) return damped;
-  if (first == options.max_iterations) return result;
-  result = solve_with_kinsol(problem, options.tolerance, options.max_iterations - first, u);
-  result.iterations += damped.iterations;
   return result;
 }
 

@@ -12,6 +12,7 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"tolerance", tolerance},
                                           {"order", order},
                                           {"order_choice", order_choice},
+                                          {"physics", physics},
                                           {"absent_effects", absent_effects},
                                           {"symmetric", symmetric},
                                           {"growth", growth},

@@ -47,6 +47,8 @@ Figures large_models(const BenchOptions& options);
 Figures largest_models(const BenchOptions& options);
 // crossover_bench.cpp
 Figures crossover(const BenchOptions& options);
+// physics_bench.cpp
+Figures physics(const BenchOptions& options);
 // effects_bench.cpp
 Figures absent_effects(const BenchOptions& options);
 

@@ -5,30 +5,6 @@
 #include "model/record/series_rules.hpp"
 
 namespace eigentrail {
-namespace {
-
-class Derivative final : public SmoothFunction {
- public:
-  explicit Derivative(const SmoothFunction& f) : f_(f) {}
-  void taylor(double x, std::span<double> coefficients) const override { differentiate(x, coefficients); }
-  void taylor(const Extended& x, std::span<Extended> coefficients) const override {
-    differentiate(x, coefficients);
-  }
-
- private:
-  template <class Real>
-  void differentiate(const Real& x, std::span<Real> coefficients) const {
-    std::array<Real, max_order + 2> all;
-    f_.taylor(x, std::span<Real>(all.data(), coefficients.size() + 1));
-    for (std::size_t k = 0; k < coefficients.size(); ++k)
-      coefficients[k] = Real(static_cast<double>(k + 1)) * all[k + 1];
-  }
-
-  const SmoothFunction& f_;
-};
-
-}  // namespace
-
 template <class Real, int Lanes>
 void Evaluation<Real, Lanes>::run(const Program& program,
                                   const std::vector<std::array<const SmoothFunction*, Lanes>>& functions) {

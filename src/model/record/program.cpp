@@ -33,12 +33,12 @@ class Compiler {
   }
 
   void add_forces() {
-    Sums<int> by_coordinate;
     for (std::size_t i = 0; i < record_.forces.size(); ++i) {
       if (record_.forces[i] < 0 || zero_[at(record_.forces[i])]) continue;
-      add_shares(static_cast<int>(i), strong(value(record_.forces[i])), by_coordinate);
+      const int force = strong(value(record_.forces[i]));
+      for (const Share& share : record_.components[i])
+        program_.forces.push_back({share.coordinate, product(weight(share), force)});
     }
-    for (const auto& [coordinate, reg] : by_coordinate) program_.forces.push_back({coordinate, reg});
     if (record_.residual >= 0) program_.residual = value(record_.residual);
     for (std::size_t i = 0; i < record_.values.size(); ++i)
       program_.values.push_back({static_cast<int>(i), value(record_.values[i])});
@@ -167,22 +167,24 @@ class Compiler {
 
   int strong(int force) { return record_.strength < 0 ? force : product(value(record_.strength), force); }
 
-  /// Adds what a component with `reg` gives to its coordinates.
+  int weight(const Share& share) { return share.weight < 0 ? one_ : value(share.weight); }
+
+  /// Adds what a component with `reg` gives to its coordinates: to rows, or to the columns of a row.
   void add_shares(int component, int reg, Sums<int>& sums) {
     for (const Share& share : record_.components[at(component)])
-      add(sums, share.coordinate, share.weight < 0 ? one_ : value(share.weight), reg);
+      add(sums, share.coordinate, weight(share), reg);
   }
   void spread(int row, int component, int reg, Sums<std::pair<int, int>>& sums) {
     for (const Share& share : record_.components[at(component)])
-      add(sums, std::pair(row, share.coordinate), share.weight < 0 ? one_ : value(share.weight), reg);
+      add(sums, std::pair(row, share.coordinate), weight(share), reg);
   }
   template <class Key>
-  void add(Sums<Key>& sums, const Key& key, int weight, int reg) {
+  void add(Sums<Key>& sums, const Key& key, int factor, int reg) {
     const auto known = sums.find(key);
-    if (known == sums.end() || weight == one_)
-      sums.emplace(key, product(weight, reg));
+    if (known == sums.end() || factor == one_)
+      sums.emplace(key, product(factor, reg));
     else
-      known->second = product_and(weight, reg, known->second);
+      known->second = product_and(factor, reg, known->second);
   }
 
   void take(const Sums<std::pair<int, int>>& sums, Target target) {

@@ -1,0 +1,98 @@
+// Linearizations of many elements of one structure: from their record, and by nested power series, one call
+// of the force for each element and direction.
+#include "bench/benchmarks.hpp"
+#include "bench/text.hpp"
+#include "bench/timing.hpp"
+#include "support/sample_element.hpp"
+
+namespace eigentrail::test {
+namespace {
+
+constexpr int order = 3;
+constexpr std::size_t count = 40;
+
+/// Calls the force once for each component, with its derivative; the sum keeps the compiler from leaving it
+/// out.
+template <class Element>
+double linearize_by_nested_series(const Sample<Element>& sample, const PathValues<double>& values) {
+  using Base = Series<double, order>;
+  using Nested = Series<Base, 1>;
+  const auto series = [&](const Matrix& columns, int index) {
+    Base result;
+    for (int k = 0; k <= order; ++k) result[k] = columns(k, index);
+    return result;
+  };
+  std::vector<Vec3<Base>> positions;
+  for (const Place& place : sample.placed.arguments) {
+    Vec3<Base> sum = Vec3<Base>::Zero();
+    for (const Term& term : place.terms) {
+      const Base weight = term.weight.slot < 0 ? Base(1.0) : series(values.numbers, term.weight.slot);
+      for (int i = 0; i < 3; ++i) sum[i] += weight * series(values.coordinates, 3 * term.triple + i);
+    }
+    positions.push_back(sum);
+  }
+  const auto n_vectors = static_cast<int>(positions.size());
+  double sum = 0.0;
+  constexpr Dependence depends = Element::depends;
+  for (int motion = 0; motion < 3; ++motion) {
+    if (!(motion == 0 ? depends.position : motion == 1 ? depends.velocity : depends.acceleration)) continue;
+    for (int component = 0; component < 3 * n_vectors; ++component) {
+      std::vector<MovingVector<Nested>> vectors;
+      for (int i = 0; i < n_vectors; ++i) {
+        const Vec3<Nested> zero = Vec3<Nested>::Zero();
+        MovingVector<Nested>& v =
+            vectors.emplace_back(positions[static_cast<std::size_t>(i)].template cast<Nested>(), zero, zero);
+        if (component / 3 != i) continue;
+        Vec3<Nested>& moved = motion == 0 ? v.position : motion == 1 ? v.velocity : v.acceleration;
+        moved[component % 3][1] = Base(1.0);
+      }
+      const std::vector<MovingState<Nested>> states(static_cast<std::size_t>(Sample<Element>::n_states));
+      ElementView<Nested> view([&](int slot) { return Nested(series(values.numbers, slot)); },
+                               std::move(vectors), states);
+      sample.placed.element.force(view);
+      for (const MovingVector<Nested>& v : view.vectors()) sum += v.force[0][1][0];
+    }
+  }
+  return sum;
+}
+
+template <class Element>
+Figure compare(const BenchOptions& options) {
+  const Sample<Element> sample;
+  eigentrail::Elements elements;
+  std::get<std::vector<Placed<Element>>>(elements.lists).assign(count, sample.placed);
+  const RecordedEquations equations = record_equations(sample.data, elements, {});
+  const PathValues<double> values = sample.path_values(order);
+  EquationWork<double> work;
+  Linearization linearization;
+  const int times = options.smoke ? 1 : 20;
+  Rounds rounds;
+  double sum = 0.0;
+  for (int i = 0; i < options.repeats; ++i) {
+    rounds.add({seconds_of([&] {
+                  for (int k = 0; k < times; ++k)
+                    evaluate_linearization(equations, values, work, linearization);
+                }),
+                seconds_of([&] {
+                  for (int k = 0; k < times; ++k) {
+                    for (std::size_t e = 0; e < count; ++e) sum += linearize_by_nested_series(sample, values);
+                  }
+                })});
+  }
+  const Batch& batch = equations.batches.front();
+  return {"time of nested series / of the record, " + std::string(Element::name), rounds.ratio(1, 0),
+          at_least(1.0),
+          std::to_string(batch.derivatives.instructions.size()) + " operations, " +
+              std::to_string(batch.derivatives.n_directions) + " directions, " +
+              short_text(1e6 * rounds.seconds(0) / (times * static_cast<double>(count))) +
+              " us for an element, order " + std::to_string(order) +
+              (std::isfinite(sum) ? "" : ", not finite")};
+}
+
+}  // namespace
+
+Figures physics(const BenchOptions& options) {
+  return {compare<Spring>(options), compare<BeamSection>(options), compare<Strip>(options)};
+}
+
+}  // namespace eigentrail::test
