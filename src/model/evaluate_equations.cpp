@@ -15,7 +15,7 @@ class BatchRun {
 
   template <int Lanes, class Take>
   void run(const Program& program, Evaluation<Real, Lanes>& evaluation, Take take) const {
-    std::vector<std::array<const SmoothFunction*, Lanes>> functions(
+    std::vector<typename Evaluation<Real, Lanes>::Functions> functions(
         static_cast<std::size_t>(batch_.record.n_functions));
     evaluation.begin(program, values_.order);
     for (std::size_t begin = 0; begin < batch_.size; begin += Lanes) {

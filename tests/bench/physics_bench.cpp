@@ -5,6 +5,39 @@
 #include "bench/timing.hpp"
 #include "support/sample_element.hpp"
 
+namespace eigentrail {
+
+/// f'
+class Derivative final : public SmoothFunction {
+ public:
+  explicit Derivative(const SmoothFunction& f) : f_(f) {}
+  void taylor(double x, std::span<double> coefficients) const override { differentiate(x, coefficients); }
+  void taylor(const Extended& x, std::span<Extended> coefficients) const override {
+    differentiate(x, coefficients);
+  }
+
+ private:
+  template <class Real>
+  void differentiate(const Real& x, std::span<Real> coefficients) const {
+    std::vector<Real> all(coefficients.size() + 1);
+    f_.taylor(x, std::span<Real>(all));
+    for (std::size_t k = 0; k < coefficients.size(); ++k)
+      coefficients[k] = Real(static_cast<double>(k + 1)) * all[k + 1];
+  }
+
+  const SmoothFunction& f_;
+};
+
+/// f(x) for a series with a derivative.
+template <class T, int Q>
+Series<Series<T, Q>, 1> apply(const SmoothFunction& f, const Series<Series<T, Q>, 1>& x) {
+  Series<Series<T, Q>, 1> value(apply(f, x[0]));
+  value[1] = apply(Derivative(f), x[0]) * x[1];
+  return value;
+}
+
+}  // namespace eigentrail
+
 namespace eigentrail::test {
 namespace {
 

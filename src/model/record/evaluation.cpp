@@ -5,68 +5,59 @@
 #include "model/record/series_rules.hpp"
 
 namespace eigentrail {
+
 template <class Real, int Lanes>
-void Evaluation<Real, Lanes>::run(const Program& program,
-                                  const std::vector<std::array<const SmoothFunction*, Lanes>>& functions) {
+void Evaluation<Real, Lanes>::run(const Program& program, const std::vector<Functions>& functions) {
   using In = Operand<Pack>;
   using Rule = Rules<Pack>;
   for (const Instruction& i : program.instructions) {
     const auto in = [&](int slot) { return In{series(slot), varies(slot)}; };
-    const auto vary = [&](auto... operands) {
-      const bool any = (operands.varies || ...);
-      set_varies(i.out, any);
-      return any ? order_ : 0;
-    };
+    const In a = in(i.a);
     Pack* const y = series(i.out);
-    switch (i.kernel) {
-      case Kernel::constant:
-        break;
-      case Kernel::add: {
-        const In a = in(i.a), b = in(i.b);
-        const int top = vary(a, b);
-        y[0] = a.c[0] + b.c[0];
-        for (int k = 1; k <= top; ++k) y[k] = Rule::coefficient(a, k) + Rule::coefficient(b, k);
-        break;
-      }
-      case Kernel::subtract: {
-        const In a = in(i.a), b = in(i.b);
-        const int top = vary(a, b);
-        y[0] = a.c[0] - b.c[0];
-        for (int k = 1; k <= top; ++k) y[k] = Rule::coefficient(a, k) - Rule::coefficient(b, k);
+    // Sets the coefficients of the result, which varies if an operand does.
+    const auto set = [&](auto coefficient, const auto&... others) {
+      const bool any = (a.varies || ... || others.varies);
+      set_varies(i.out, any);
+      const int top = any ? order_ : 0;
+      for (int k = 0; k <= top; ++k) y[k] = coefficient(k);
+    };
+    switch (i.op) {
+      case Operator::add: {
+        const In b = in(i.b);
+        set([&](int k) { return Pack(a.at(k) + b.at(k)); }, b);
         break;
       }
-      case Kernel::negate: {
-        const In a = in(i.a);
-        const int top = vary(a);
-        for (int k = 0; k <= top; ++k) y[k] = -a.c[k];
+      case Operator::subtract: {
+        const In b = in(i.b);
+        set([&](int k) { return Pack(a.at(k) - b.at(k)); }, b);
         break;
       }
-      case Kernel::multiply: {
-        const In a = in(i.a), b = in(i.b);
-        Rule::multiply(y, vary(a, b), a, b);
+      case Operator::negate:
+        set([&](int k) { return Pack(-a.c[k]); });
+        break;
+      case Operator::multiply: {
+        const In b = in(i.b);
+        set([&](int k) { return Rule::product(a, b, k); }, b);
         break;
       }
-      case Kernel::multiply_add: {
-        const In a = in(i.a), b = in(i.b), c = in(i.c);
-        const int top = vary(a, b, c);
-        for (int k = 0; k <= top; ++k) y[k] = Rule::product(a, b, k) + Rule::coefficient(c, k);
+      case Operator::multiply_add: {
+        const In b = in(i.b), c = in(i.c);
+        set([&](int k) { return Pack(Rule::product(a, b, k) + c.at(k)); }, b, c);
         break;
       }
-      case Kernel::multiply_two: {
-        const In a = in(i.a), b = in(i.b), c = in(i.c), d = in(i.d);
-        const int top = vary(a, b, c, d);
-        for (int k = 0; k <= top; ++k) y[k] = Rule::product(a, b, k) + Rule::product(c, d, k);
+      case Operator::multiply_behind: {
+        const In b = in(i.b), c = in(i.c);
+        set([&](int k) { return Pack(c.at(k) - Rule::product(a, b, k)); }, b, c);
         break;
       }
-      case Kernel::multiply_behind: {
-        const In a = in(i.a), b = in(i.b), c = in(i.c);
-        const int top = vary(a, b, c);
-        for (int k = 0; k <= top; ++k) y[k] = Rule::coefficient(c, k) - Rule::product(a, b, k);
+      case Operator::multiply_two: {
+        const In b = in(i.b), c = in(i.c), d = in(i.d);
+        set([&](int k) { return Pack(Rule::product(a, b, k) + Rule::product(c, d, k)); }, b, c, d);
         break;
       }
-      case Kernel::divide: {
-        const In a = in(i.a), b = in(i.b);
-        Rule::divide(y, vary(a, b), a, b);
+      case Operator::divide: {
+        const In b = in(i.b);
+        set([&](int k) { return Rule::quotient(y, a, b, k); }, b);
         break;
       }
       default:
@@ -75,127 +66,100 @@ void Evaluation<Real, Lanes>::run(const Program& program,
   }
 }
 
-/// Functions of one variable, and what chooses by the leading values.
+/// Functions of one variable. Their leading coefficients come from the library.
 template <class Real, int Lanes>
-void Evaluation<Real, Lanes>::run_function(
-    const Instruction& i, const std::vector<std::array<const SmoothFunction*, Lanes>>& functions) {
+void Evaluation<Real, Lanes>::run_function(const Instruction& i, const std::vector<Functions>& functions) {
   using In = Operand<Pack>;
   using Rule = Rules<Pack>;
-  using std::sqrt, std::exp, std::log, std::sin, std::cos, std::sinh, std::cosh, std::tanh, std::asin,
-      std::acos, std::atan;
   const In x{series(i.a), varies(i.a)};
-  const int top = x.top(order_);
+  const int top = x.varies ? order_ : 0;
   Pack* const y = series(i.out);
-  Pack* const second = i.second < 0 ? nullptr : series(i.second);
   set_varies(i.out, x.varies);
   if (i.second >= 0) set_varies(i.second, x.varies);
-  const auto each = [&](Pack& result, auto function) {
+  const auto lead = [&](Pack& result, auto function) {
     for (int l = 0; l < Lanes; ++l) result[l] = Real(function(x.c[0][l]));
   };
-  const auto integrate = [&] { Rule::integrate(y, top, x, {series(i.b), varies(i.b)}); };
-  switch (i.kernel) {
-    case Kernel::sqrt:
-      Rule::sqrt(y, top, x);
-      break;
-    case Kernel::exp:
-      each(y[0], [](const Real& v) { return exp(v); });
-      Rule::integrate(y, top, x, {y, x.varies});
-      break;
-    case Kernel::log:
-      each(y[0], [](const Real& v) { return log(v); });
-      integrate();
-      break;
-    case Kernel::asin:
-      each(y[0], [](const Real& v) { return asin(v); });
-      integrate();
-      break;
-    case Kernel::acos:
-      each(y[0], [](const Real& v) { return acos(v); });
-      integrate();
-      break;
-    case Kernel::atan:
-      each(y[0], [](const Real& v) { return atan(v); });
-      integrate();
-      break;
-    case Kernel::tanh:
-      each(y[0], [](const Real& v) { return tanh(v); });
-      Rule::tanh(y, top, x);
-      break;
-    case Kernel::sine_cosine:
-      each(y[0], [](const Real& v) { return sin(v); });
-      each(second[0], [](const Real& v) { return cos(v); });
-      Rule::sine_cosine(y, second, top, x, -1.0);
-      break;
-    case Kernel::sinh_cosh:
-      each(y[0], [](const Real& v) { return sinh(v); });
-      each(second[0], [](const Real& v) { return cosh(v); });
-      Rule::sine_cosine(y, second, top, x, 1.0);
-      break;
-    case Kernel::step:
-      each(y[0], [](const Real& v) { return v >= Real(0.0) ? 1.0 : 0.0; });
-      set_varies(i.out, false);
-      break;
-    case Kernel::function:
-      compose(i, functions[static_cast<std::size_t>(i.b)]);
-      break;
+  const auto integrate = [&](auto function) {
+    lead(y[0], function);
+    Rule::integrate(y, top, x, In{series(i.b), varies(i.b)});
+  };
+  const auto both = [&](auto function, auto other, double sign) {
+    lead(y[0], function);
+    lead(series(i.second)[0], other);
+    Rule::sine_cosine(y, series(i.second), top, x, sign);
+  };
+  using std::sqrt, std::exp, std::log, std::sin, std::cos, std::sinh, std::cosh, std::tanh, std::asin,
+      std::acos, std::atan;
+  switch (i.op) {
+    case Operator::sqrt:
+      lead(y[0], [](const Real& v) { return sqrt(v); });
+      return Rule::sqrt(y, top, x);
+    case Operator::exp:
+      lead(y[0], [](const Real& v) { return exp(v); });
+      return Rule::integrate(y, top, x, In{y, x.varies});
+    case Operator::tanh:
+      lead(y[0], [](const Real& v) { return tanh(v); });
+      return Rule::tanh(y, top, x);
+    case Operator::log:
+      return integrate([](const Real& v) { return log(v); });
+    case Operator::asin:
+      return integrate([](const Real& v) { return asin(v); });
+    case Operator::acos:
+      return integrate([](const Real& v) { return acos(v); });
+    case Operator::atan:
+      return integrate([](const Real& v) { return atan(v); });
+    case Operator::sin:
+      return both([](const Real& v) { return sin(v); }, [](const Real& v) { return cos(v); }, -1.0);
+    case Operator::sinh:
+      return both([](const Real& v) { return sinh(v); }, [](const Real& v) { return cosh(v); }, 1.0);
+    case Operator::step:
+      lead(y[0], [](const Real& v) { return v >= Real(0.0) ? 1.0 : 0.0; });
+      return set_varies(i.out, false);
+    case Operator::function:
+      return compose(i, functions[static_cast<std::size_t>(i.b)], top);
     default:
       run_choice(i);
   }
 }
 
-/// What chooses by the leading values, and powers.
+/// f(x(h)) and f'(x(h)) by Horner's rule in x(h) - x_0.
 template <class Real, int Lanes>
-void Evaluation<Real, Lanes>::run_choice(const Instruction& i) {
-  using std::abs, std::floor;
-  using In = Operand<Pack>;
-  using Rule = Rules<Pack>;
-  const In a{series(i.a), varies(i.a)}, b{series(i.b), varies(i.b)};
-  Pack* const y = series(i.out);
-  const bool minimum = i.kernel == Kernel::min || i.kernel == Kernel::choose_min;
-  const auto choose = [&](const In& first, const In& other) {
-    set_varies(i.out, first.varies || other.varies);
-    for (int k = 0; k <= (varies(i.out) ? order_ : 0); ++k) {
-      const Pack p = Rule::coefficient(first, k), q = Rule::coefficient(other, k);
-      for (int l = 0; l < Lanes; ++l) {
-        const bool takes_other = minimum ? b.c[0][l] < a.c[0][l] : a.c[0][l] < b.c[0][l];
-        y[k][l] = takes_other ? q[l] : p[l];
-      }
+void Evaluation<Real, Lanes>::compose(const Instruction& i, const Functions& functions, int top) {
+  std::array<Real, max_order + 2> taylor;
+  for (int l = 0; l < Lanes; ++l) {
+    LongSeries distance = lane(i.a, l), value, slope;
+    functions[static_cast<std::size_t>(l)]->taylor(
+        distance[0], std::span<Real>(taylor.data(), static_cast<std::size_t>(top) + 2));
+    distance[0] = Real(0.0);
+    for (int k = top; k >= 0; --k) {
+      const auto at = static_cast<std::size_t>(k);
+      value = value * distance + LongSeries(taylor[at]);
+      slope = slope * distance + LongSeries(Real(k + 1.0) * taylor[at + 1]);
     }
-  };
-  switch (i.kernel) {
-    case Kernel::min:
-    case Kernel::max:
-      choose(a, b);
-      return;
-    case Kernel::choose_min:
-    case Kernel::choose_max:
-      choose({series(i.c), varies(i.c)}, {series(i.d), varies(i.d)});
-      return;
-    case Kernel::leading_angle:
-      for (int l = 0; l < Lanes; ++l)
-        y[0][l] = Real(std::atan2(static_cast<double>(a.c[0][l]), static_cast<double>(b.c[0][l])));
-      set_varies(i.out, false);
-      return;
-    default:
-      power(i);
+    set_lane(i.out, l, value);
+    set_lane(i.second, l, slope);
   }
 }
 
-/// x^y by repeated squaring for integers, else exp(y log(x)).
+/// What depends on the leading values of two operands.
 template <class Real, int Lanes>
-void Evaluation<Real, Lanes>::power(const Instruction& i) {
-  set_varies(i.out, varies(i.a) || varies(i.b));
-  for (int l = 0; l < Lanes; ++l) set_lane(i.out, l, pow(lane(i.a, l), lane(i.b, l)));
-}
-
-/// f(x(h)) and f'(x(h)).
-template <class Real, int Lanes>
-void Evaluation<Real, Lanes>::compose(const Instruction& i, const Functions& functions) {
+void Evaluation<Real, Lanes>::run_choice(const Instruction& i) {
+  const auto a = [&](int l) { return series(i.a)[0][l]; };
+  const auto b = [&](int l) { return series(i.b)[0][l]; };
+  const bool minimum = i.op == Operator::min || i.op == Operator::choose_min;
+  const bool of_operands = i.op == Operator::min || i.op == Operator::max;
+  const int first = of_operands ? i.a : i.c, other = of_operands ? i.b : i.d;
+  set_varies(i.out, i.op == Operator::leading_angle ? false
+                    : i.op == Operator::power       ? varies(i.a) || varies(i.b)
+                                                    : varies(first) || varies(other));
   for (int l = 0; l < Lanes; ++l) {
-    const SmoothFunction& f = *functions[static_cast<std::size_t>(l)];
-    const LongSeries x = lane(i.a, l);
-    set_lane(i.out, l, apply(f, x));
-    set_lane(i.second, l, apply(Derivative(f), x));
+    if (i.op == Operator::leading_angle) {
+      series(i.out)[0][l] = Real(std::atan2(static_cast<double>(a(l)), static_cast<double>(b(l))));
+    } else if (i.op == Operator::power) {
+      set_lane(i.out, l, pow(lane(i.a, l), lane(i.b, l)));
+    } else {
+      set_lane(i.out, l, lane((minimum ? b(l) < a(l) : a(l) < b(l)) ? other : first, l));
+    }
   }
 }
 

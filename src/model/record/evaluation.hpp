@@ -21,6 +21,8 @@ template <class Real, int Lanes>
 class Evaluation {
  public:
   using Pack = Eigen::Array<Real, Lanes, 1>;
+  /// A function for each lane.
+  using Functions = std::array<const SmoothFunction*, Lanes>;
 
   /// Prepares for a program and series up to h^order, and computes its constants.
   void begin(const Program& program, int order) {
@@ -37,16 +39,13 @@ class Evaluation {
   bool varies(int slot) const { return varies_[static_cast<std::size_t>(slot)]; }
   void set_varies(int slot, bool varies) { varies_[static_cast<std::size_t>(slot)] = varies; }
 
-  /// Carries out the instructions. `functions`: by index, one for each lane.
-  void run(const Program& program, const std::vector<std::array<const SmoothFunction*, Lanes>>& functions);
+  /// Carries out the instructions. `functions`: by index.
+  void run(const Program& program, const std::vector<Functions>& functions);
 
  private:
-  using Functions = std::array<const SmoothFunction*, Lanes>;
-
   void run_function(const Instruction& i, const std::vector<Functions>& functions);
   void run_choice(const Instruction& i);
-  void power(const Instruction& i);
-  void compose(const Instruction& i, const Functions& functions);
+  void compose(const Instruction& i, const Functions& functions, int top);
 
   using LongSeries = Series<Real, max_order>;
   LongSeries lane(int slot, int l) const {

@@ -136,14 +136,14 @@ class Compiler {
     return std::binary_search(all.begin(), all.end(), direction);
   }
 
-  int emit(Kernel kernel, int a = -1, int b = -1, int c = -1, int d = -1) {
-    program_.instructions.push_back({kernel, next_, a, b, c, d});
+  int emit(Operator op, int a = -1, int b = -1, int c = -1, int d = -1) {
+    program_.instructions.push_back({op, next_, a, b, c, d});
     return next_++;
   }
 
   int constant(double value) {
     const auto [known, is_new] = constants_.emplace(std::bit_cast<std::uint64_t>(value), next_);
-    if (is_new) program_.constants.push_back({Kernel::constant, next_++, -1, -1, -1, -1, -1, value});
+    if (is_new) program_.constants.push_back({Operator::constant, next_++, -1, -1, -1, -1, -1, value});
     return known->second;
   }
 
@@ -152,17 +152,17 @@ class Compiler {
     if (b == one_) return a;
     if (a == minus_one_) return negated(b);
     if (b == minus_one_) return negated(a);
-    return emit(Kernel::multiply, a, b);
+    return emit(Operator::multiply, a, b);
   }
   int negated(int a) {
     if (a == one_) return minus_one_;
-    return a == minus_one_ ? one_ : emit(Kernel::negate, a);
+    return a == minus_one_ ? one_ : emit(Operator::negate, a);
   }
-  int sum(int a, int b) { return emit(Kernel::add, a, b); }
+  int sum(int a, int b) { return emit(Operator::add, a, b); }
   /// a b + c
   int product_and(int a, int b, int c) {
     if (a == one_) return sum(b, c);
-    return b == one_ ? sum(a, c) : emit(Kernel::multiply_add, a, b, c);
+    return b == one_ ? sum(a, c) : emit(Operator::multiply_add, a, b, c);
   }
 
   int strong(int force) { return record_.strength < 0 ? force : product(value(record_.strength), force); }
@@ -201,16 +201,16 @@ class Compiler {
   int power_tangent(const Operation& own, int direction);
   int choice_tangent(const Operation& own, int direction);
   int slope(int node);
-  int both(Kernel kernel, int of, bool second);
+  int both(Operator op, int of, bool second);
 
   const Record& record_;
   std::vector<char> zero_;
   std::vector<Directions> active_;
-  std::vector<int> values_;                      ///< registers of the values by operation
-  std::map<std::pair<int, int>, int> tangents_;  ///< by operation and direction
-  std::map<int, int> slopes_;                    ///< derivatives of functions, by operation
-  std::map<std::pair<Kernel, int>, std::pair<int, int>> pairs_;
-  std::map<std::uint64_t, int> constants_;  ///< registers by the bits of the number
+  std::vector<int> values_;                        ///< registers of the values by operation
+  std::map<std::pair<int, int>, int> tangents_;    ///< by operation and direction
+  std::map<int, int> slopes_;                      ///< derivatives of functions, by operation
+  std::map<std::pair<Operator, int>, int> pairs_;  ///< first results of instructions with two
+  std::map<std::uint64_t, int> constants_;         ///< registers by the bits of the number
   std::set<int> directions_;
   Program program_;
   int next_ = 0;
@@ -218,33 +218,26 @@ class Compiler {
 };
 
 int Compiler::value(int node) {
-  int& known = values_[at(node)];
-  if (known < 0) {
+  if (values_[at(node)] < 0) {
     const int reg = new_value(node);
     values_[at(node)] = reg;
-    return reg;
   }
-  return known;
+  return values_[at(node)];
 }
 
-/// One of the two results of a kernel that has two.
-int Compiler::both(Kernel kernel, int of, bool second) {
-  const auto known = pairs_.find({kernel, of});
-  if (known != pairs_.end()) return second ? known->second.second : known->second.first;
-  const int x = value(of);
-  const int first = emit(kernel, x);
-  program_.instructions.back().second = next_;
-  pairs_[{kernel, of}] = {first, next_++};
-  return second ? first + 1 : first;
+/// The first or second result of an instruction that has two.
+int Compiler::both(Operator op, int of, bool second) {
+  const auto known = pairs_.find({op, of});
+  if (known != pairs_.end()) return known->second + int{second};
+  const int first = emit(op, value(of));
+  program_.instructions.back().second = next_++;
+  pairs_[{op, of}] = first;
+  return first + int{second};
 }
 
 int Compiler::new_value(int node) {
   const Operation& own = operation(node);
   if (zero_[at(node)]) return constant(0.0);
-  const auto binary = [&](Kernel kernel) {
-    const int a = value(own.a);
-    return emit(kernel, a, value(own.b));
-  };
   switch (own.op) {
     case Operator::constant:
       return constant(own.constant);
@@ -256,60 +249,33 @@ int Compiler::new_value(int node) {
       return next_++;
     case Operator::component:
       return value(own.a);
-    case Operator::add:
-      if (zero_[at(own.a)]) return value(own.b);
-      return zero_[at(own.b)] ? value(own.a) : binary(Kernel::add);
-    case Operator::subtract:
-      if (zero_[at(own.a)]) return negated(value(own.b));
-      return zero_[at(own.b)] ? value(own.a) : binary(Kernel::subtract);
-    case Operator::multiply:
-      return binary(Kernel::multiply);
-    case Operator::divide:
-      return binary(Kernel::divide);
     case Operator::negate:
       return negated(value(own.a));
-    case Operator::sqrt:
-      return emit(Kernel::sqrt, value(own.a));
-    case Operator::exp:
-      return emit(Kernel::exp, value(own.a));
-    case Operator::tanh:
-      return emit(Kernel::tanh, value(own.a));
+    case Operator::sin:
+    case Operator::cos:
+      return both(Operator::sin, own.a, own.op == Operator::cos);
+    case Operator::sinh:
+    case Operator::cosh:
+      return both(Operator::sinh, own.a, own.op == Operator::cosh);
     case Operator::log:
     case Operator::asin:
     case Operator::acos:
     case Operator::atan: {
-      const Kernel kernel = own.op == Operator::log    ? Kernel::log
-                            : own.op == Operator::asin ? Kernel::asin
-                            : own.op == Operator::acos ? Kernel::acos
-                                                       : Kernel::atan;
       const int rate = slope(node);
-      return emit(kernel, value(own.a), rate);
+      return emit(own.op, value(own.a), rate);
     }
-    case Operator::sin:
-    case Operator::cos:
-      return both(Kernel::sine_cosine, own.a, own.op == Operator::cos);
-    case Operator::sinh:
-    case Operator::cosh:
-      return both(Kernel::sinh_cosh, own.a, own.op == Operator::cosh);
-    case Operator::power:
-      return binary(Kernel::power);
-    case Operator::min:
-      return binary(Kernel::min);
-    case Operator::max:
-      return binary(Kernel::max);
-    case Operator::step:
-      return emit(Kernel::step, value(own.a));
-    case Operator::leading_angle:
-      return binary(Kernel::leading_angle);
     case Operator::function: {
-      const int x = value(own.a);
-      const int reg = emit(Kernel::function, x, own.b);
-      program_.instructions.back().second = next_;
-      slopes_[node] = next_++;
+      const int reg = emit(own.op, value(own.a), own.b);
+      program_.instructions.back().second = slopes_[node] = next_++;
       return reg;
     }
     default:
-      throw std::logic_error("Compiler: an operation without value");
+      if (own.op == Operator::add || own.op == Operator::subtract) {
+        if (zero_[at(own.b)]) return value(own.a);
+        if (zero_[at(own.a)]) return own.op == Operator::add ? value(own.b) : negated(value(own.b));
+      }
+      const int left = value(own.a);
+      return emit(own.op, left, own.b < 0 ? -1 : value(own.b));
   }
 }
 
@@ -324,30 +290,30 @@ int Compiler::slope(int node) {
       reg = value(node);
       break;
     case Operator::log:
-      reg = emit(Kernel::divide, one_, value(own.a));
+      reg = emit(Operator::divide, one_, value(own.a));
       break;
     case Operator::sin:
-      reg = both(Kernel::sine_cosine, own.a, true);
+      reg = both(Operator::sin, own.a, true);
       break;
     case Operator::sinh:
-      reg = both(Kernel::sinh_cosh, own.a, true);
+      reg = both(Operator::sinh, own.a, true);
       break;
     case Operator::cosh:
-      reg = both(Kernel::sinh_cosh, own.a, false);
+      reg = both(Operator::sinh, own.a, false);
       break;
     case Operator::tanh:
-      reg = emit(Kernel::multiply_behind, value(node), value(node), one_);
+      reg = emit(Operator::multiply_behind, value(node), value(node), one_);
       break;
     case Operator::atan: {
       const int x = value(own.a);
-      reg = emit(Kernel::divide, one_, emit(Kernel::multiply_add, x, x, one_));
+      reg = emit(Operator::divide, one_, emit(Operator::multiply_add, x, x, one_));
       break;
     }
     case Operator::asin:
     case Operator::acos: {
       const int x = value(own.a);
-      const int root = emit(Kernel::sqrt, emit(Kernel::multiply_behind, x, x, one_));
-      reg = emit(Kernel::divide, own.op == Operator::asin ? one_ : minus_one_, root);
+      const int root = emit(Operator::sqrt, emit(Operator::multiply_behind, x, x, one_));
+      reg = emit(Operator::divide, own.op == Operator::asin ? one_ : minus_one_, root);
       break;
     }
     case Operator::function:
@@ -385,7 +351,7 @@ int Compiler::new_tangent(int node, int direction) {
     case Operator::subtract: {
       if (!depends(own.a, direction)) return negated(tangent(own.b, direction));
       const int a = tangent(own.a, direction);
-      return depends(own.b, direction) ? emit(Kernel::subtract, a, tangent(own.b, direction)) : a;
+      return depends(own.b, direction) ? emit(Operator::subtract, a, tangent(own.b, direction)) : a;
     }
     case Operator::negate:
       return negated(tangent(own.a, direction));
@@ -397,10 +363,10 @@ int Compiler::new_tangent(int node, int direction) {
       const auto known = slopes_.find(node);
       const int twice = known != slopes_.end() ? known->second : product(constant(2.0), value(node));
       slopes_[node] = twice;
-      return emit(Kernel::divide, tangent(own.a, direction), twice);
+      return emit(Operator::divide, tangent(own.a, direction), twice);
     }
     case Operator::cos: {
-      const int sine = both(Kernel::sine_cosine, own.a, false);
+      const int sine = both(Operator::sin, own.a, false);
       return negated(product(tangent(own.a, direction), sine));
     }
     case Operator::power:
@@ -423,7 +389,7 @@ int Compiler::product_tangent(const Operation& own, int direction) {
   const int a = tangent(own.a, direction), b = tangent(own.b, direction);
   const int left = value(own.a), right = value(own.b);
   if (a == one_ || b == one_) return product_and(left, b, product(a, right));
-  return emit(Kernel::multiply_two, left, b, a, right);
+  return emit(Operator::multiply_two, left, b, a, right);
 }
 
 /// (a / b)' = (a' - (a / b) b') / b
@@ -432,9 +398,9 @@ int Compiler::quotient_tangent(int node, const Operation& own, int direction) {
   int rest = depends(own.a, direction) ? tangent(own.a, direction) : -1;
   if (by_b) {
     const int quotient = value(node), b = tangent(own.b, direction);
-    rest = rest < 0 ? negated(product(quotient, b)) : emit(Kernel::multiply_behind, quotient, b, rest);
+    rest = rest < 0 ? negated(product(quotient, b)) : emit(Operator::multiply_behind, quotient, b, rest);
   }
-  return emit(Kernel::divide, rest, value(own.b));
+  return emit(Operator::divide, rest, value(own.b));
 }
 
 /// (x^y)' = y x^(y - 1) x' + x^y log(x) y'
@@ -442,12 +408,12 @@ int Compiler::power_tangent(const Operation& own, int direction) {
   const int x = value(own.a), y = value(own.b);
   int result = -1;
   if (depends(own.a, direction)) {
-    const int lower = emit(Kernel::power, x, emit(Kernel::subtract, y, one_));
+    const int lower = emit(Operator::power, x, emit(Operator::subtract, y, one_));
     result = product(tangent(own.a, direction), product(y, lower));
   }
   if (!depends(own.b, direction)) return result;
-  const int logarithm = emit(Kernel::log, x, emit(Kernel::divide, one_, x));
-  const int by_y = product(tangent(own.b, direction), product(emit(Kernel::power, x, y), logarithm));
+  const int logarithm = emit(Operator::log, x, emit(Operator::divide, one_, x));
+  const int by_y = product(tangent(own.b, direction), product(emit(Operator::power, x, y), logarithm));
   return result < 0 ? by_y : sum(result, by_y);
 }
 
@@ -456,15 +422,15 @@ int Compiler::choice_tangent(const Operation& own, int direction) {
     return depends(node, direction) ? tangent(node, direction) : constant(0.0);
   };
   const int a = side(own.a), b = side(own.b);
-  const Kernel kernel = own.op == Operator::min ? Kernel::choose_min : Kernel::choose_max;
-  return emit(kernel, value(own.a), value(own.b), a, b);
+  const Operator op = own.op == Operator::min ? Operator::choose_min : Operator::choose_max;
+  return emit(op, value(own.a), value(own.b), a, b);
 }
 
 /// Calls visit(register) for all operands.
 template <class Visit>
 void for_each_operand(Instruction& instruction, Visit visit) {
   visit(instruction.a);
-  if (instruction.kernel != Kernel::function) visit(instruction.b);
+  if (instruction.op != Operator::function) visit(instruction.b);
   visit(instruction.c);
   visit(instruction.d);
 }

@@ -14,41 +14,13 @@
 
 namespace eigentrail {
 
-/// Every instruction computes a power series along the path from others. Rules for series: ibid., Table 13.2.
-enum class Kernel : std::uint8_t {
-  constant,
-  add,
-  subtract,
-  negate,
-  multiply,         ///< a b
-  multiply_add,     ///< a b + c
-  multiply_two,     ///< a b + c d
-  multiply_behind,  ///< c - a b
-  divide,
-  sqrt,
-  exp,
-  log,  ///< of a; b is 1 / a, the derivative
-  asin,
-  acos,
-  atan,         ///< likewise
-  sine_cosine,  ///< and to `second` the cosine
-  sinh_cosh,    ///< likewise
-  tanh,
-  power,
-  min,
-  max,
-  choose_min,  ///< c where a is the minimum of a and b, else d
-  choose_max,
-  step,
-  leading_angle,
-  function  ///< and to `second` the derivative
-};
-
+/// Computes a power series along the path from others, which are in slots. log, asin, acos and atan have
+/// their derivative as operand b; sin and sinh, and functions, a second result: cos, cosh, the derivative.
 struct Instruction {
-  Kernel kernel = Kernel::constant;
-  int out = -1;                        ///< slot of the result
-  int a = -1, b = -1, c = -1, d = -1;  ///< slots of operands; `b` of a function is its index
-  int second = -1;                     ///< slot of a second result
+  Operator op = Operator::constant;
+  int out = -1;  ///< slot of the result
+  int a = -1, b = -1, c = -1, d = -1;
+  int second = -1;
   double constant = 0.0;
 };
 

@@ -42,7 +42,13 @@ enum class Operator : std::uint8_t {
   max,
   step,
   leading_angle,  ///< atan2(a, b) of the leading values, a constant
-  function        ///< function with index b of a
+  function,       ///< function with index b of a
+  // Only in programs
+  multiply_add,     ///< a b + c
+  multiply_two,     ///< a b + c d
+  multiply_behind,  ///< c - a b
+  choose_min,       ///< c where a is the minimum of a and b, else d
+  choose_max
 };
 
 /// `a` and `b` are indices of operations before this one, unless the operator says otherwise.

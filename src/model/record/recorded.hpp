@@ -30,7 +30,8 @@ class Recorded {
   Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
   Recorded& operator/=(const Recorded& b) { return *this = *this / b; }
 
-  // Literals are computed at once. Sums with zero and products with zero or one are no operations.
+  // Literals are computed at once. Sums with zero and products with zero or one are no operations. The
+  // functions below throw std::logic_error if all their arguments are literals.
   friend Recorded operator+(const Recorded& a, const Recorded& b);
   friend Recorded operator-(const Recorded& a, const Recorded& b);
   friend Recorded operator*(const Recorded& a, const Recorded& b);

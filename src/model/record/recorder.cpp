@@ -98,17 +98,14 @@ Recorder* recorder_of(const Recorded& a, const Recorded& b) {
   return a.recorder() != nullptr ? a.recorder() : b.recorder();
 }
 
-/// A function of a recorded value, or its value at a literal.
-template <class Function>
-Recorded unary(Operator op, const Recorded& x, Function function) {
-  if (x.recorder() == nullptr) return function(x.literal());
+/// A function of values of which one at least is recorded.
+Recorded of(Operator op, const Recorded& x) {
+  if (x.recorder() == nullptr) throw std::logic_error("Recorded: a function of a literal");
   return x.recorder()->operation(op, x);
 }
-
-template <class Function>
-Recorded binary(Operator op, const Recorded& a, const Recorded& b, Function function) {
+Recorded of(Operator op, const Recorded& a, const Recorded& b) {
   Recorder* const recorder = recorder_of(a, b);
-  if (recorder == nullptr) return function(a.literal(), b.literal());
+  if (recorder == nullptr) throw std::logic_error("Recorded: a function of literals");
   return recorder->operation(op, a, b);
 }
 
@@ -117,13 +114,13 @@ Recorded binary(Operator op, const Recorded& a, const Recorded& b, Function func
 Recorded operator+(const Recorded& a, const Recorded& b) {
   if (a.is_literal(0.0)) return b;
   if (b.is_literal(0.0)) return a;
-  return binary(Operator::add, a, b, [](double x, double y) { return x + y; });
+  return recorder_of(a, b) == nullptr ? a.literal() + b.literal() : of(Operator::add, a, b);
 }
 
 Recorded operator-(const Recorded& a, const Recorded& b) {
   if (a.is_literal(0.0)) return -b;
   if (b.is_literal(0.0)) return a;
-  return binary(Operator::subtract, a, b, [](double x, double y) { return x - y; });
+  return recorder_of(a, b) == nullptr ? a.literal() - b.literal() : of(Operator::subtract, a, b);
 }
 
 Recorded operator*(const Recorded& a, const Recorded& b) {
@@ -132,74 +129,73 @@ Recorded operator*(const Recorded& a, const Recorded& b) {
   if (b.is_literal(1.0)) return a;
   if (a.is_literal(-1.0)) return -b;
   if (b.is_literal(-1.0)) return -a;
-  return binary(Operator::multiply, a, b, [](double x, double y) { return x * y; });
+  return recorder_of(a, b) == nullptr ? a.literal() * b.literal() : of(Operator::multiply, a, b);
 }
 
 Recorded operator/(const Recorded& a, const Recorded& b) {
   if (a.is_literal(0.0) && b.recorder() != nullptr) return 0.0;
   if (b.is_literal(1.0)) return a;
-  return binary(Operator::divide, a, b, [](double x, double y) { return x / y; });
+  return recorder_of(a, b) == nullptr ? a.literal() / b.literal() : of(Operator::divide, a, b);
 }
 
 Recorded operator-(const Recorded& a) {
-  return unary(Operator::negate, a, [](double x) { return -x; });
+  return a.recorder() == nullptr ? Recorded(-a.literal()) : of(Operator::negate, a);
 }
 
 Recorded sqrt(const Recorded& x) {
-  return unary(Operator::sqrt, x, [](double v) { return std::sqrt(v); });
+  return of(Operator::sqrt, x);
 }
 Recorded exp(const Recorded& x) {
-  return unary(Operator::exp, x, [](double v) { return std::exp(v); });
+  return of(Operator::exp, x);
 }
 Recorded log(const Recorded& x) {
-  return unary(Operator::log, x, [](double v) { return std::log(v); });
+  return of(Operator::log, x);
 }
 Recorded sin(const Recorded& x) {
-  return unary(Operator::sin, x, [](double v) { return std::sin(v); });
+  return of(Operator::sin, x);
 }
 Recorded cos(const Recorded& x) {
-  return unary(Operator::cos, x, [](double v) { return std::cos(v); });
+  return of(Operator::cos, x);
 }
 Recorded tan(const Recorded& x) {
   return sin(x) / cos(x);
 }
 Recorded sinh(const Recorded& x) {
-  return unary(Operator::sinh, x, [](double v) { return std::sinh(v); });
+  return of(Operator::sinh, x);
 }
 Recorded cosh(const Recorded& x) {
-  return unary(Operator::cosh, x, [](double v) { return std::cosh(v); });
+  return of(Operator::cosh, x);
 }
 Recorded tanh(const Recorded& x) {
-  return unary(Operator::tanh, x, [](double v) { return std::tanh(v); });
+  return of(Operator::tanh, x);
 }
 Recorded asin(const Recorded& x) {
-  return unary(Operator::asin, x, [](double v) { return std::asin(v); });
+  return of(Operator::asin, x);
 }
 Recorded acos(const Recorded& x) {
-  return unary(Operator::acos, x, [](double v) { return std::acos(v); });
+  return of(Operator::acos, x);
 }
 Recorded atan(const Recorded& x) {
-  return unary(Operator::atan, x, [](double v) { return std::atan(v); });
+  return of(Operator::atan, x);
 }
 Recorded pow(const Recorded& x, const Recorded& y) {
-  return binary(Operator::power, x, y, [](double v, double w) { return std::pow(v, w); });
+  return of(Operator::power, x, y);
 }
 Recorded min(const Recorded& a, const Recorded& b) {
-  return binary(Operator::min, a, b, [](double x, double y) { return y < x ? y : x; });
+  return of(Operator::min, a, b);
 }
 Recorded max(const Recorded& a, const Recorded& b) {
-  return binary(Operator::max, a, b, [](double x, double y) { return x < y ? y : x; });
+  return of(Operator::max, a, b);
 }
 Recorded step(const Recorded& x) {
-  return unary(Operator::step, x, [](double v) { return v >= 0.0 ? 1.0 : 0.0; });
+  return of(Operator::step, x);
 }
 Recorded abs(const Recorded& x) {
   return (2.0 * step(x) - 1.0) * x;
 }
 
 Recorded angle_of(const Recorded& sine, const Recorded& cosine) {
-  const Recorded turn =
-      binary(Operator::leading_angle, sine, cosine, [](double s, double c) { return std::atan2(s, c); });
+  const Recorded turn = of(Operator::leading_angle, sine, cosine);
   const Recorded c = cos(turn);
   const Recorded s = sin(turn);
   return turn + atan((sine * c - cosine * s) / (cosine * c + sine * s));

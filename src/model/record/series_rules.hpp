@@ -16,18 +16,17 @@ struct Operand {
   const Pack* c = nullptr;
   bool varies = false;
 
-  /// Highest coefficient that is not zero, up to `order`.
-  int top(int order) const { return varies ? order : 0; }
+  Pack at(int k) const { return k == 0 || varies ? c[k] : Pack(Pack::Zero()); }
 };
 
-/// Rules for series of packs up to h^order. Every rule writes the coefficients up to `top`.
+/// Rules for series of packs. They write coefficients up to `top`.
 template <class Pack>
 class Rules {
  public:
   using Real = typename Pack::Scalar;
   using In = Operand<Pack>;
 
-  /// Adds coefficient k of a b to `sum`, or begins with it; the terms are summed from a_0 b_k on.
+  /// Coefficient k of a b, summed from a_0 b_k on.
   static Pack product(const In& a, const In& b, int k) {
     if (!a.varies) return b.varies || k == 0 ? Pack(a.c[0] * b.c[k]) : Pack(Pack::Zero());
     if (!b.varies) return a.c[k] * b.c[0];
@@ -36,34 +35,17 @@ class Rules {
     return sum;
   }
 
-  static void multiply(Pack* y, int top, const In& a, const In& b) {
-    if (!a.varies) {
-      const Pack factor = a.c[0];
-      for (int k = 0; k <= top; ++k) y[k] = factor * b.c[k];
-    } else if (!b.varies) {
-      const Pack factor = b.c[0];
-      for (int k = 0; k <= top; ++k) y[k] = a.c[k] * factor;
-    } else {
-      for (int k = 0; k <= top; ++k) y[k] = product(a, b, k);
-    }
-  }
-
-  static Pack coefficient(const In& a, int k) { return k == 0 || a.varies ? a.c[k] : Pack(Pack::Zero()); }
-
   /// q_k = (a_k - sum_{j<k} q_j b_{k-j}) / b_0
-  static void divide(Pack* q, int top, const In& a, const In& b) {
-    for (int k = 0; k <= top; ++k) {
-      Pack rest = coefficient(a, k);
-      if (b.varies) {
-        for (int j = 0; j < k; ++j) rest -= q[j] * b.c[k - j];
-      }
-      q[k] = rest / b.c[0];
+  static Pack quotient(const Pack* q, const In& a, const In& b, int k) {
+    Pack rest = a.at(k);
+    if (b.varies) {
+      for (int j = 0; j < k; ++j) rest -= q[j] * b.c[k - j];
     }
+    return rest / b.c[0];
   }
 
+  /// Of these rules y_0 is there already.
   static void sqrt(Pack* y, int top, const In& x) {
-    using std::sqrt;
-    y[0] = x.c[0].unaryExpr([](const Real& v) { return Real(sqrt(v)); });
     for (int k = 1; k <= top; ++k) {
       Pack rest = x.c[k];
       for (int j = 1; j < k; ++j) rest -= y[j] * y[k - j];
@@ -74,8 +56,8 @@ class Rules {
   /// y' = g x' with y_0 there already: k y_k = sum_j j x_j g_{k-j}. g may be y.
   static void integrate(Pack* y, int top, const In& x, const In& g) {
     for (int k = 1; k <= top; ++k) {
-      y[k] = weight(1, k) * (x.c[1] * coefficient(g, k - 1));
-      for (int j = 2; j <= k; ++j) y[k] += weight(j, k) * (x.c[j] * coefficient(g, k - j));
+      y[k] = weight(1, k) * (x.c[1] * g.at(k - 1));
+      for (int j = 2; j <= k; ++j) y[k] += weight(j, k) * (x.c[j] * g.at(k - j));
     }
   }
 

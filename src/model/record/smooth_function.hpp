@@ -6,7 +6,6 @@
 
 #include "eigentrail/core/extended.hpp"
 #include "eigentrail/core/series.hpp"
-#include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
 
@@ -25,27 +24,6 @@ class SmoothFunction {
   SmoothFunction& operator=(const SmoothFunction&) = default;
 };
 
-/// f', for series up to max_order.
-class Derivative final : public SmoothFunction {
- public:
-  explicit Derivative(const SmoothFunction& f) : f_(f) {}
-  void taylor(double x, std::span<double> coefficients) const override { differentiate(x, coefficients); }
-  void taylor(const Extended& x, std::span<Extended> coefficients) const override {
-    differentiate(x, coefficients);
-  }
-
- private:
-  template <class Real>
-  void differentiate(const Real& x, std::span<Real> coefficients) const {
-    std::array<Real, max_order + 2> all;
-    f_.taylor(x, std::span<Real>(all.data(), coefficients.size() + 1));
-    for (std::size_t k = 0; k < coefficients.size(); ++k)
-      coefficients[k] = Real(static_cast<double>(k + 1)) * all[k + 1];
-  }
-
-  const SmoothFunction& f_;
-};
-
 /// f(x) for a series.
 template <class T, int Q>
 Series<T, Q> apply(const SmoothFunction& f, const Series<T, Q>& x) {
@@ -57,14 +35,6 @@ Series<T, Q> apply(const SmoothFunction& f, const Series<T, Q>& x) {
     value = value * distance;
     value[0] += taylor[static_cast<std::size_t>(k)];
   }
-  return value;
-}
-
-/// The same with a derivative.
-template <class T, int Q>
-Series<Series<T, Q>, 1> apply(const SmoothFunction& f, const Series<Series<T, Q>, 1>& x) {
-  Series<Series<T, Q>, 1> value(apply(f, x[0]));
-  value[1] = apply(Derivative(f), x[0]) * x[1];
   return value;
 }
 
