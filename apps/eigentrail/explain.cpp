@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include "eigentrail/continuation/family_parts.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
@@ -61,20 +62,30 @@ void print_data(std::FILE* to, const Model& model) {
   print_table(rows, to);
 }
 
+/// What is recorded of an effect, and its share of all operations of a linearization.
+std::vector<std::string> recorded(const Effect& effect, double all) {
+  if (all == 0.0) return {};
+  return {std::to_string(effect.records), std::to_string(effect.directions),
+          std::to_string(effect.operations) + " (" + rounded(100.0 * effect.operations / all, 2) + " %)"};
+}
+
 void print_effects(std::FILE* to, const Model& model) {
+  const std::vector<Effect>& effects = model.description().effects;
+  const double all = std::accumulate(effects.begin(), effects.end(), 0.0,
+                                     [](double sum, const Effect& e) { return sum + e.operations; });
   std::vector<std::vector<std::string>> active;
-  if (model.description().effects.size() > 1) {
-    active.push_back({"  effect", "number", "records", "directions", "operations", ""});
-  }
+  const auto add = [&](std::vector<std::string> row, const std::vector<std::string>& costs, std::string end) {
+    row.insert(row.end(), costs.begin(), costs.end());
+    row.push_back(std::move(end));
+    active.push_back(std::move(row));
+  };
+  if (all > 0.0) add({"  effect", "number"}, {"records", "directions", "operations"}, "");
   std::string absent;
-  for (const Effect& effect : model.description().effects) {
-    if (effect.count > 0) {
-      active.push_back({"  " + effect.name, std::to_string(effect.count), std::to_string(effect.records),
-                        std::to_string(effect.directions), std::to_string(effect.operations),
-                        effect.description});
-    } else {
+  for (const Effect& effect : effects) {
+    if (effect.count > 0)
+      add({"  " + effect.name, std::to_string(effect.count)}, recorded(effect, all), effect.description);
+    else
       absent += (absent.empty() ? "" : ", ") + effect.name;
-    }
   }
   std::fprintf(to, "effects\n");
   print_table(active, to);
