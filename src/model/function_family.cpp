@@ -166,10 +166,10 @@ std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& 
          (out_of_calls ? " or more calls" : "");
 }
 
-enum class Symmetry { symmetric, skew, none };
+enum class FunctionSymmetry { symmetric, skew, none };
 
-/// Symmetry of all coefficients of one of the matrices.
-Symmetry symmetry(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
+/// FunctionSymmetry of all coefficients of one of the matrices.
+FunctionSymmetry symmetry(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
   bool symmetric = true, skew = true;
   for (const FamilyPiece& piece : pieces) {
     for (const Matrix& c : piece.*matrix) {
@@ -177,7 +177,7 @@ Symmetry symmetry(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> Fa
       skew = skew && c == -c.transpose();
     }
   }
-  return symmetric ? Symmetry::symmetric : skew ? Symmetry::skew : Symmetry::none;
+  return symmetric ? FunctionSymmetry::symmetric : skew ? FunctionSymmetry::skew : FunctionSymmetry::none;
 }
 
 bool is_constant(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
@@ -202,12 +202,12 @@ ModelDescription describe(const FunctionFamilyOptions& options, const std::vecto
                                           [](Eigen::Index i) { return "x" + std::to_string(i + 1); });
   description.coordinate_units =
       texts_of(options.state_units, "state_units", n, [](Eigen::Index) { return std::string("1"); });
-  const Symmetry c = symmetry(pieces, &FamilyPiece::C);
+  const FunctionSymmetry c = symmetry(pieces, &FamilyPiece::C);
   const bool has_C = !is_constant(pieces, &FamilyPiece::C) || !pieces.front().C.front().isZero(0.0);
   Contribution parts{.inertia = true, .conservative = true};
-  parts.circulatory = symmetry(pieces, &FamilyPiece::K) != Symmetry::symmetric;
-  parts.dissipative = has_C && c != Symmetry::skew;
-  parts.gyroscopic = has_C && c != Symmetry::symmetric;
+  parts.circulatory = symmetry(pieces, &FamilyPiece::K) != FunctionSymmetry::symmetric;
+  parts.dissipative = has_C && c != FunctionSymmetry::skew;
+  parts.gyroscopic = has_C && c != FunctionSymmetry::symmetric;
   description.effects = {{"function",
                           "a function of the caller's: " + std::to_string(calls) + " calls, " +
                               std::to_string(pieces.size()) + (pieces.size() == 1 ? " piece" : " pieces"),
@@ -262,7 +262,7 @@ Vector FunctionFamily::initial_guess(const Vector&) const {
 Structure FunctionFamily::structure(int) const {
   const Contribution& parts = description().effects.front().contribution;
   Structure structure;
-  structure.symmetric_mass = symmetry(pieces_, &FamilyPiece::M) == Symmetry::symmetric;
+  structure.symmetric_mass = symmetry(pieces_, &FamilyPiece::M) == FunctionSymmetry::symmetric;
   structure.damped = parts.dissipative;
   structure.gyroscopic = parts.gyroscopic;
   structure.circulatory = parts.circulatory;

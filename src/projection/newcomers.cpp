@@ -62,7 +62,7 @@ struct Others {
 };
 
 Others without_followed(const SmallPencil& small, const ProjectedPlace& place, const Shift& shift) {
-  constexpr int spare = 3;  // so that one more is seldom needed
+  constexpr int to_spare = 3;  // so that one more is seldom needed
   const Complex centre = shift.value();
   Others others;
   for (const ProjectedMode& mode : place.modes) {
@@ -70,7 +70,7 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, c
     others.farthest = std::max(others.farthest, std::abs(mode.s - centre));
     others.largest = std::max(others.largest, std::abs(mode.s));
   }
-  others.s = eigenvalues_within(others.farthest, small, shift, static_cast<int>(place.modes.size()) + spare);
+  others.s = eigenvalues_within(others.farthest, small, shift, static_cast<int>(place.modes.size()) + to_spare);
   for (const ProjectedMode& mode : place.modes) {
     if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
     others.s.erase(std::min_element(others.s.begin(), others.s.end(), [&](Complex a, Complex b) {

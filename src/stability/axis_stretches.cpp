@@ -15,10 +15,10 @@ namespace {
 
 /// An event with |Re s| below this multiple of max(|s|, reference) lies on the imaginary axis.
 constexpr double axis_width = 1e-6;
-constexpr int samples_per_step = 8;
+constexpr int axis_samples_per_step = 8;
 /// Events closer together than this, relative to the steps that they are on, form one cut: nearer than the
 /// dense output tells them apart.
-constexpr double same_place = 1e-9;
+constexpr double same_axis_place = 1e-9;
 /// An event closer to a stored point than this, relative to the step, is at that point. Where eigenvalues
 /// meet and at folds the trace stores a point, so that these events are at the nearer end of their step if it
 /// is within this share of the parameter range (MeetingThresholds::at_point, with a margin).
@@ -143,7 +143,7 @@ std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> 
   std::vector<AxisCut> result;
   for (AxisCut& cut : cuts) {
     const std::size_t before = result.empty() ? cut.at.step : result.back().at.step;
-    const double near = same_place * (length_of(path, before) + length_of(path, cut.at.step));
+    const double near = same_axis_place * (length_of(path, before) + length_of(path, cut.at.step));
     const bool same =
         !result.empty() && (cut.at == result.back().at || (cut.at.step - result.back().at.step <= 1 &&
                                                            std::abs(cut.p - result.back().p) <= near));
@@ -175,7 +175,8 @@ void add_samples(const RecordedPath& path, const Judging& judging, AxisStretch& 
     const double high = step == to.step ? to.t : 1.0;
     if (low == 0.0 && (step > from.step || !stretch.from.on_axis) && high > 0.0) add(step, 0.0);
     if (high <= low) continue;
-    for (int k = 0; k < samples_per_step; ++k) add(step, low + (high - low) * (k + 0.5) / samples_per_step);
+    for (int k = 0; k < axis_samples_per_step; ++k)
+      add(step, low + (high - low) * (k + 0.5) / axis_samples_per_step);
   }
   if (!stretch.to.on_axis) add(to.step, to.t);
 }

@@ -13,10 +13,10 @@ namespace {
 
 // Lengths are in the scaled window.
 constexpr int pieces = 8;  ///< straight pieces that a step is divided into to find intersections
-constexpr int most_corrections = 10;
-constexpr double settled = 1e-14;     ///< smaller Newton corrections are rounding
-constexpr double stagnated = 1e-10;   ///< corrections below this that no longer halve are rounding
-constexpr double same_corner = 1e-7;  ///< corners of the same curves closer than this are one
+constexpr int most_corner_corrections = 10;
+constexpr double corner_settled = 1e-14;    ///< smaller Newton corrections are rounding
+constexpr double corner_stagnated = 1e-10;  ///< corrections below this that no longer halve are rounding
+constexpr double same_corner = 1e-7;        ///< corners of the same curves closer than this are one
 /// Largest relative difference of the predicted coordinates of one equilibrium: the error of predictions.
 constexpr double same_coordinates = 1e-4;
 /// Least sine of the angle between the two curves: below it they touch and do not intersect.
@@ -187,7 +187,7 @@ bool CornerFinder::locate(At a, At b, const Place& t) {
   const double reach = curves_[a.curve].steps[a.step].length + curves_[b.curve].steps[b.step].length;
   guess[1].place = start;
   double last = INFINITY;
-  for (int i = 0; i < most_corrections; ++i) {
+  for (int i = 0; i < most_corner_corrections; ++i) {
     Eigen::Matrix2d slopes;
     Place values;
     std::array<Situation, 2> there;
@@ -206,7 +206,7 @@ bool CornerFinder::locate(At a, At b, const Place& t) {
     const Place move = -slopes.inverse() * values;
     const double size = move.norm();
     if (!((there[0].place + move - start).norm() <= reach)) return false;
-    if (size <= settled || (size > 0.5 * last && last <= stagnated)) {
+    if (size <= corner_settled || (size > 0.5 * last && last <= corner_stagnated)) {
       if (Window::contains(there[0].place))
         add(CornerKind::intersection, there[0].place, {eigenvalue(a, there[0]), eigenvalue(b, there[1])},
             a.curve, b.curve);
@@ -221,13 +221,13 @@ bool CornerFinder::locate(At a, At b, const Place& t) {
 void CornerFinder::locate_on_dense(At a, At b, Place t) {
   const ChordStep& first = curves_[a.curve].steps[a.step];
   const ChordStep& second = curves_[b.curve].steps[b.step];
-  for (int i = 0; i < most_corrections; ++i) {
+  for (int i = 0; i < most_corner_corrections; ++i) {
     Eigen::Matrix2d slopes;
     slopes << first.slope(t[0]), -second.slope(t[1]);
     if (!(std::abs(slopes.determinant()) > least_sine * slopes.col(0).norm() * slopes.col(1).norm())) return;
     const Place move = slopes.inverse() * (second.place(t[1]) - first.place(t[0]));
     t = (t + move).cwiseMax(0.0).cwiseMin(1.0);
-    if (move.norm() > stagnated) continue;
+    if (move.norm() > corner_stagnated) continue;
     if ((second.place(t[1]) - first.place(t[0])).norm() > same_corner) return;
     const auto root = [](const Eigen::Vector4d& at) { return at[2] + std::sqrt(Complex(at[3])); };
     add(CornerKind::intersection, first.place(t[0]), {root(first(t[0])), root(second(t[1]))}, a.curve,

@@ -17,7 +17,7 @@ constexpr double same_place = 1e-9;  ///< places closer than this are one
 /// Error, relative to the allowed one, that the step control gets if a tangent at an end of the step deviates
 /// too much from the chord.
 constexpr double bent_too_much = 30.0;
-constexpr int samples_per_step = 16;
+constexpr int curve_samples_per_step = 16;
 /// If the step becomes too short and another eigenvalue is closer than this multiple of |s|, the curve ends
 /// at an exceptional point.
 constexpr double coalescing = 1e-3;
@@ -45,9 +45,9 @@ bool step_passes(const ChordStep& step, const Place& place, Complex s, double to
 /// none.
 template <class Value>
 double first_negative(Value&& value) {
-  for (int k = 1; k <= samples_per_step; ++k) {
-    double before = (k - 1.0) / samples_per_step;
-    double behind = static_cast<double>(k) / samples_per_step;
+  for (int k = 1; k <= curve_samples_per_step; ++k) {
+    double before = (k - 1.0) / curve_samples_per_step;
+    double behind = static_cast<double>(k) / curve_samples_per_step;
     if (value(behind) >= 0.0) continue;
     constexpr int halvings = 45;
     for (int i = 0; i < halvings; ++i) {

@@ -14,7 +14,7 @@ constexpr int steps_per_line = 16;  ///< least number of steps of a trace
 constexpr int samples_per_step = 16;
 /// Instabilities below this multiple of max(|s|, reference) have no sign: in a system without damping their
 /// signs are rounding.
-constexpr double vanishing = 1e-9;
+constexpr double vanishing_growth = 1e-9;
 constexpr int halvings = 40;
 /// Largest instability, relative to max(|s|, reference), at a located sign change that counts as a zero.
 constexpr double largest_jump = 1e-3;
@@ -76,7 +76,7 @@ class Scanner {
   void add_extremum(Eigen::Index mode, double before, double here, double behind);
   void report(const TraceResult& result);
   bool has_sign(Complex s) const {
-    return std::abs(instability(options_, s)) > vanishing * std::max(std::abs(s), scan_.s_ref);
+    return std::abs(instability(options_, s)) > vanishing_growth * std::max(std::abs(s), scan_.s_ref);
   }
 
   const Window& window_;
@@ -221,7 +221,7 @@ void Scanner::add_extremum(Eigen::Index mode, double before, double here, double
   if (!(sign * (here - before) > 0.0 && sign * (here - behind) > 0.0)) return;
   const Complex s = last_->s[mode];
   if (options_.damping_ratio && s.imag() == 0.0) return;
-  const double rounding = vanishing * std::max(std::abs(s), scan_.s_ref);
+  const double rounding = vanishing_growth * std::max(std::abs(s), scan_.s_ref);
   if (sign * (here - before) < rounding && sign * (here - behind) < rounding) return;
   scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
 }

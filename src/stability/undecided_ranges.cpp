@@ -8,12 +8,12 @@
 namespace eigentrail {
 namespace {
 
-constexpr int samples_per_step = 8;
+constexpr int range_samples_per_step = 8;
 /// The cause of an end of a range beyond which the errors leave the stability open.
 constexpr const char* cause = "data error";
 
 /// What the intervals of all real parts say at a place.
-struct Sample {
+struct RangeSample {
   double place = 0.0;  ///< in steps from the first point
   Stability verdict = Stability::undecided;
   double margin = 0.0;  ///< -max Re s
@@ -22,7 +22,7 @@ struct Sample {
 
 /// Places, in steps from the first point.
 struct Stretch {
-  Sample from, to;
+  RangeSample from, to;
 };
 
 class Sampler {
@@ -37,11 +37,11 @@ class Sampler {
 
   double parameter(double place) const { return path_.parameter_at(position(place)); }
 
-  Sample at(double place) const {
+  RangeSample at(double place) const {
     const PathPosition here = position(place);
     const ComplexVector s = path_.eigenvalues_at(here);
     double lowest = -INFINITY, highest = -INFINITY, fastest = -INFINITY;
-    Sample sample{place};
+    RangeSample sample{place};
     for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
       if (permanence_[static_cast<std::size_t>(mode)] == Permanence::zero || !std::isfinite(s[mode].real()))
         continue;
@@ -62,10 +62,10 @@ class Sampler {
   }
 
   /// The place between two samples at which the verdict `undecided` begins or ends.
-  Sample edge(Sample inside, Sample outside) const {
+  RangeSample edge(RangeSample inside, RangeSample outside) const {
     constexpr int halvings = 45;
     for (int i = 0; i < halvings; ++i) {
-      const Sample middle = at(0.5 * (inside.place + outside.place));
+      const RangeSample middle = at(0.5 * (inside.place + outside.place));
       (middle.verdict == Stability::undecided ? inside : outside) = middle;
     }
     return inside;
@@ -79,12 +79,12 @@ class Sampler {
 };
 
 /// Samples all along the path, and at the events on the imaginary axis.
-std::vector<Sample> all_samples(const Sampler& sampler, const RecordedPath& path,
-                                const std::vector<Event>& events) {
+std::vector<RangeSample> all_samples(const Sampler& sampler, const RecordedPath& path,
+                                     const std::vector<Event>& events) {
   std::vector<double> places;
   for (std::size_t step = 0; step < path.steps.size(); ++step) {
-    for (int k = 0; k < samples_per_step; ++k)
-      places.push_back(static_cast<double>(step) + static_cast<double>(k) / samples_per_step);
+    for (int k = 0; k < range_samples_per_step; ++k)
+      places.push_back(static_cast<double>(step) + static_cast<double>(k) / range_samples_per_step);
   }
   places.push_back(static_cast<double>(path.steps.size()));
   for (const Event& event : events) {
@@ -94,12 +94,12 @@ std::vector<Sample> all_samples(const Sampler& sampler, const RecordedPath& path
   }
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
-  std::vector<Sample> samples;
+  std::vector<RangeSample> samples;
   for (const double place : places) samples.push_back(sampler.at(place));
   return samples;
 }
 
-std::vector<Stretch> undecided_stretches(const Sampler& sampler, const std::vector<Sample>& samples) {
+std::vector<Stretch> undecided_stretches(const Sampler& sampler, const std::vector<RangeSample>& samples) {
   std::vector<Stretch> found;
   const auto open = [&](std::size_t i) { return samples[i].verdict == Stability::undecided; };
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -124,10 +124,10 @@ std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, 
                                         const EigenvalueAccuracy& accuracy) {
   if (path.steps.empty()) return ranges;
   const Sampler sampler(path, errors, accuracy);
-  const std::vector<Sample> samples = all_samples(sampler, path, events);
+  const std::vector<RangeSample> samples = all_samples(sampler, path, events);
   const double direction = direction_of(path);
   const auto before = [direction](double a, double b) { return direction * a < direction * b; };
-  const auto edge = [&](const Sample& at) {
+  const auto edge = [&](const RangeSample& at) {
     return RangeEnd{sampler.parameter(at.place), cause, at.margin, at.critical};
   };
 
@@ -178,7 +178,7 @@ std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, 
           part.largest_at = p;
         };
         include(part.from.margin, part.from.p);
-        for (const Sample& sample : samples) {
+        for (const RangeSample& sample : samples) {
           const double p = sampler.parameter(sample.place);
           if (before(part.from.p, p) && before(p, part.to.p)) include(sample.margin, p);
         }

@@ -22,7 +22,7 @@ constexpr double smallest_delta = 1e-12;
 constexpr double largest_delta = 1e12;
 
 /// A configuration on the manifold and the forces in it.
-struct Place {
+struct RelaxedPlace {
   Vector x, lambda;
   Linearization linearization;
   ConstraintFactorization constraints;
@@ -93,8 +93,8 @@ class Relaxation {
 
   const std::string& unmet() const { return unmet_; }
 
-  std::optional<Place> at(const Vector& x) {
-    Place place;
+  std::optional<RelaxedPlace> at(const Vector& x) {
+    RelaxedPlace place;
     place.x = x;
     path_.x = x;
     path_.lambda = place.lambda = model_.first_multipliers(path_.parameters.col(0));
@@ -133,7 +133,7 @@ class Relaxation {
 };
 
 /// The implicit step with the least damping, from `delta` on, for which it does not go against the force.
-Vector downhill_step(const Place& place, double scale, double& delta) {
+Vector downhill_step(const RelaxedPlace& place, double scale, double& delta) {
   const Matrix& Q2 = place.constraints.null_basis();
   const Matrix K = Q2.transpose() * place.linearization.K[0] * Q2;
   const Matrix identity = Matrix::Identity(K.rows(), K.cols());
@@ -153,7 +153,7 @@ RelaxationResult relax(const Model& model, const Vector& parameters, const Relax
   Relaxation relaxation(model, parameters, counts);
   const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   if (!relaxation.project_from_guess(x, length)) return {false, relaxation.unmet()};
-  std::optional<Place> here = relaxation.at(x);
+  std::optional<RelaxedPlace> here = relaxation.at(x);
   double delta = first_delta;
   double largest_force = 0.0;
   for (int i = 0; here && i < options.max_steps; ++i) {
@@ -169,7 +169,7 @@ RelaxationResult relax(const Model& model, const Vector& parameters, const Relax
     step *= std::min(1.0, options.longest_move * length / size);
     const Vector move = here->constraints.null_basis() * step;
     Vector ahead = here->x + move;
-    std::optional<Place> there;
+    std::optional<RelaxedPlace> there;
     if (relaxation.project(ahead, length)) there = relaxation.at(ahead);
     // Accept the step unless the force along it reverses by more than `overshoot`.
     const double before = here->pull.dot(step);

@@ -15,9 +15,9 @@ namespace eigentrail {
 namespace {
 
 /// As a share of the reach: step of central differences. Their truncation error is about the square.
-constexpr double difference_step = 1e-3;
+constexpr double collision_difference_step = 1e-3;
 /// Safety factor on estimates of rounding errors.
-constexpr double rounding_margin = 10.0;
+constexpr double collision_rounding_margin = 10.0;
 
 /// Sum of the powers of the eigenvalues of a part about their mean, tr N^j, from value and two derivatives at
 /// the point. All of them vanish where all eigenvalues are one.
@@ -46,7 +46,7 @@ PowerSum power_sum(const std::vector<ComplexMatrix>& part, int power, double lam
   const Complex here = sum(0.0), ahead = sum(width), behind = sum(-width);
   const double size = std::pow(centred(part, 0.0).norm(), power - 1);
   return {here, (ahead - behind) / (2.0 * width), (ahead - 2.0 * here + behind) / (width * width),
-          rounding_margin * power * size * lambda};
+          collision_rounding_margin * power * size * lambda};
 }
 
 /// The place where all eigenvalues of a part are one, as the simple root of that power sum which is known
@@ -57,7 +57,7 @@ std::optional<double> common_place(const std::vector<ComplexMatrix>& part, doubl
   std::optional<double> place;
   double least = on_axis * std::abs(reach);
   for (int power = 2; power <= static_cast<int>(part[0].rows()); ++power) {
-    const PowerSum sum = power_sum(part, power, lambda, difference_step * std::abs(reach));
+    const PowerSum sum = power_sum(part, power, lambda, collision_difference_step * std::abs(reach));
     if (sum.slope == 0.0 || !sum.is_simple() || !(sum.doubt() < least)) continue;
     const Complex root = sum.root();
     if (std::abs(root.imag()) > on_axis * std::abs(reach) || std::abs(root) > std::abs(reach)) continue;
@@ -74,7 +74,7 @@ ComplexVector eigenvalues(const ComplexMatrix& Lambda) {
 /// Whether the eigenvalues of a centred part may all be zero, within the error of Lambda.
 bool is_one(const ComplexMatrix& N, double lambda) {
   const ComplexVector s = eigenvalues(N);
-  const Vector errors = Vector::Constant(N.size(), rounding_margin * lambda / std::sqrt(N.size()));
+  const Vector errors = Vector::Constant(N.size(), collision_rounding_margin * lambda / std::sqrt(N.size()));
   return s.cwiseAbs().maxCoeff() <= root_errors(N.reshaped(), s, errors).maxCoeff();
 }
 
@@ -95,7 +95,8 @@ bool tells_apart(const std::vector<ComplexMatrix>& part, double place, double wi
   constexpr double exceeded = 3.0;
   const ComplexMatrix Lambda = evaluate_series(part, place + width);
   const ComplexVector s = eigenvalues(Lambda);
-  if (are_told_apart(Lambda.reshaped(), s, rounding_margin * function_rounding(Lambda))) return true;
+  if (are_told_apart(Lambda.reshaped(), s, collision_rounding_margin * function_rounding(Lambda)))
+    return true;
   const Eigen::Index different = count_different(s);
   return different < s.size() && (s.array() - s.mean()).abs().maxCoeff() > exceeded * from &&
          count_different(eigenvalues(evaluate_series(part, place + 2.0 * width))) == different;
@@ -114,7 +115,7 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   if (!root) return std::nullopt;
   const auto radius = [&](double h) { return eigenvalues(centred(part, h)).cwiseAbs().maxCoeff(); };
   const double at_root = radius(*root);
-  double width = difference_step * std::abs(reach);
+  double width = collision_difference_step * std::abs(reach);
   while (!tells_apart(part, *root, width, at_root)) {
     width *= 2.0;
     if (width > farthest * std::abs(reach)) return std::nullopt;
@@ -142,7 +143,7 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
     const auto mean_square = [&](double h) {
       return sum_of_powers(centred(part, h), 2) / static_cast<double>(size);
     };
-    meeting.puiseux = std::sqrt(slope_of(mean_square, difference_step * std::abs(reach)));
+    meeting.puiseux = std::sqrt(slope_of(mean_square, collision_difference_step * std::abs(reach)));
   } else {
     meeting.cycle = static_cast<int>(size);
     const Complex slope = slope_of([&](double h) { return centred(part, h).determinant(); }, width);
@@ -162,8 +163,8 @@ Meeting meeting_of_all(const Track& track, double reach) {
 bool are_hidden(const Track& track, double reach) {
   if (track.size() < 3) return false;
   const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
-  const Vector known =
-      root_errors(track.functions.col(0), track.roots, rounding_margin * function_rounding(Lambda[0]));
+  const Vector known = root_errors(track.functions.col(0), track.roots,
+                                   collision_rounding_margin * function_rounding(Lambda[0]));
   const double radius = (track.roots.array() - track.roots.mean()).abs().maxCoeff();
   return radius <= known.maxCoeff() && common_place(Lambda, rounding_of(track, Lambda).lambda, reach);
 }

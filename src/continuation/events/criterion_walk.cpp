@@ -38,7 +38,7 @@ constexpr double on_real_axis = 1e-6;
 constexpr int most_corrections = 20;
 constexpr double last_correction = 1e-15;
 /// Safety factor on the estimated rounding error of a block's eigenvalues.
-constexpr double rounding_margin = 10.0;
+constexpr double criterion_rounding_margin = 10.0;
 
 /// Whether a zero can be located as that of a product of two eigenvalues of a block.
 bool has_product(const CriterionTarget& target, const Track& track) {
@@ -350,7 +350,7 @@ double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, dou
 double CriteriaOnStep::rounding(std::size_t member, double t) {
   if (track_.size() == 1) return 0.0;
   if (t != rounding_at_) {
-    const Vector of_functions = rounding_margin * function_rounding(track_.pair.Lambda);
+    const Vector of_functions = criterion_rounding_margin * function_rounding(track_.pair.Lambda);
     roundings_ = root_errors(roots_.functions()(t), roots_(t), of_functions);
     rounding_at_ = t;
   }

@@ -14,7 +14,7 @@ constexpr double off_range = 1e-12;
 /// turns back, an event with the same p and modes can occur again later; that is another event.
 constexpr int neighbouring = 2;
 /// Safety factor on the rounding of coinciding eigenvalues.
-constexpr double rounding_margin = 10.0;
+constexpr double event_rounding_margin = 10.0;
 
 template <class Condition>
 bool any_of(const std::vector<Event>& events, const Condition& holds) {
@@ -29,7 +29,7 @@ double spread_at(const Event& collision, double place, double s_ref) {
   const double m = std::max<double>(2.0, static_cast<double>(collision.modes.size()));
   const double scale = std::max(std::abs(collision.s), s_ref);
   return std::abs(collision.puiseux) * std::pow(place, 1.0 / m) +
-         rounding_margin * scale * std::pow(std::numeric_limits<double>::epsilon(), 1.0 / m);
+         event_rounding_margin * scale * std::pow(std::numeric_limits<double>::epsilon(), 1.0 / m);
 }
 
 }  // namespace

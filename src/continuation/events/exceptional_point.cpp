@@ -11,8 +11,8 @@ namespace {
 /// Newton iterations: from the prediction a few, close to another exceptional point linear convergence first.
 constexpr int most_iterations = 30;
 /// As a share of the reach: the last move, and moves that may be rounding.
-constexpr double settled = 1e-12;
-constexpr double loose = 1e-6;
+constexpr double settled_move = 1e-12;
+constexpr double loosely_settled = 1e-6;
 /// As a share of the move before: a longer move no longer shrinks. Beside a double root each is half as long.
 constexpr double still_shrinking = 0.7;
 /// As a share of the reach, and of mu: longer moves are shortened.
@@ -46,7 +46,7 @@ std::optional<Complex> root_at(const FixedPencil& pencil, Complex mu, double mov
     if (!is_finite(move)) return std::nullopt;
     mu += move;
     if (std::abs(mu - start) > moved) return std::nullopt;
-    if (std::abs(move) <= std::max(settled * std::abs(mu), last_move)) return mu;
+    if (std::abs(move) <= std::max(settled_move * std::abs(mu), last_move)) return mu;
   }
   return std::nullopt;
 }
@@ -98,9 +98,10 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
     mu += dmu;
     if (std::abs(h - start) > reach) return std::nullopt;
     // The place is known to rounding over the slope of the discriminant: below that moves no longer shrink.
-    const bool at_rounding = std::abs(dh) <= loose * reach && std::abs(dh) > still_shrinking * last_move;
+    const bool at_rounding =
+        std::abs(dh) <= loosely_settled * reach && std::abs(dh) > still_shrinking * last_move;
     last_move = std::abs(dh);
-    if (std::abs(dh) > settled * reach && !at_rounding) continue;
+    if (std::abs(dh) > settled_move * reach && !at_rounding) continue;
     // The next root of the critical value of f over mu, by its curvature.
     const Complex curvature = f.hh - f.muh * f.muh / f.mumu;
     return ExceptionalPoint{h, mu, -2.0 * f.h / f.mumu, h - 2.0 * f.h / curvature};

@@ -14,7 +14,7 @@ namespace {
 
 /// As a share of the range: a place is located when a move to it is shorter than this, a few hundred
 /// times rounding.
-constexpr double settled = 1e-13;
+constexpr double landing_accuracy = 1e-13;
 /// p counts as the end of the range if the difference is at most this share of the larger of the end and the
 /// length of the range: rounding of the length of a step.
 constexpr double on_end = 1e-14;
@@ -42,16 +42,16 @@ constexpr int few_looks = 2;
 /// In steps: predicted meetings this close to the one that was located may lie on the same point.
 constexpr double worth_a_look = 1e-3;
 
-using RealSight = Sight<double>;
+using LandingSight = Sight<double>;
 
 /// A veering that is narrower than places are known is a crossing: eigenvalues near zero are small
 /// differences of the stiffness, whose rounding the block does not show. As in meetings.cpp, it is one for
 /// certain where it is narrower than a tenth of that.
 Meeting beyond_rounding(Meeting meeting, double range) {
   constexpr double left_of_a_crossing = 0.1;
-  if (meeting.kind != EventKind::veering || meeting.half_width > settled * range) return meeting;
+  if (meeting.kind != EventKind::veering || meeting.half_width > landing_accuracy * range) return meeting;
   meeting.kind = EventKind::crossing;
-  meeting.is_certain = meeting.half_width <= left_of_a_crossing * settled * range;
+  meeting.is_certain = meeting.half_width <= left_of_a_crossing * landing_accuracy * range;
   meeting.half_width = 0.0;
   return meeting;
 }
@@ -67,13 +67,13 @@ bool land_on_end(StepSolver& solver, Step& step) {
     if ((step.right.p - end) * side <= 0.0 || step.right.p == end) continue;
     const double p = step.left->p;
     const double guess = step.h * (end - p) / (step.right.p - p);
-    const auto look = [&](double distance) -> RealSight {
+    const auto look = [&](double distance) -> LandingSight {
       AttemptedStep attempted = solver.attempt(distance);
-      if (!attempted.step) return {RealSight::Kind::failed};
+      if (!attempted.step) return {LandingSight::Kind::failed};
       step = std::move(*attempted.step);
       const double miss = end - step.right.p;
       const bool there = std::abs(miss) <= on_end * std::max(range.length(), std::abs(end));
-      return {there ? RealSight::Kind::settled : RealSight::Kind::seen, miss / frame.speed(step.right)};
+      return {there ? LandingSight::Kind::settled : LandingSight::Kind::seen, miss / frame.speed(step.right)};
     };
     WalkRules rules;
     rules.begin = 0.0;
@@ -94,14 +94,14 @@ bool land_on_fold(StepSolver& solver, Step& step) {
   const double before = heading(frame, *step.left, step.h);
   const double behind = heading(frame, step.right, -step.h);
   if (!(before * behind < 0.0)) return true;
-  const auto look = [&](double distance) -> RealSight {
+  const auto look = [&](double distance) -> LandingSight {
     AttemptedStep attempted = solver.attempt(distance);
-    if (!attempted.step) return {RealSight::Kind::failed};
+    if (!attempted.step) return {LandingSight::Kind::failed};
     step = std::move(*attempted.step);
-    return {RealSight::Kind::seen, fold_distance(frame, step.right)};
+    return {LandingSight::Kind::seen, fold_distance(frame, step.right)};
   };
   WalkRules rules;
-  rules.resolution = settled;
+  rules.resolution = landing_accuracy;
   rules.rounding = on_fold;
   rules.begin = 0.0;
   rules.end = step.h;
@@ -133,8 +133,8 @@ class MeetingLanding {
   Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks);
   Approach land_as_told(const ExpectedMeeting& expected);
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
-  RealSight look_from(double distance, const ExpectedMeeting& expected, bool trusting, StrandSampler& strands,
-                      double& earlier, double& rounding);
+  LandingSight look_from(double distance, const ExpectedMeeting& expected, bool trusting,
+                         StrandSampler& strands, double& earlier, double& rounding);
   Meeting seen_from(const Track& track, const ExpectedMeeting& expected) const {
     return expected.is_of_all
                ? meeting_of_all(track, step_.h)
@@ -181,7 +181,7 @@ std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& exp
 bool MeetingLanding::is_left_end(const ExpectedMeeting& expected, double distance) const {
   const PathFrame& frame = solver_.points().frame();
   const bool is_known = expected.has_just_met || frame.on_branch_point(*step_.left);
-  return std::abs(distance) <= (is_known ? at_point_ : settled * frame.coordinate_range());
+  return std::abs(distance) <= (is_known ? at_point_ : landing_accuracy * frame.coordinate_range());
 }
 
 /// Ends the step at the predicted position, if the prediction is accurate enough. `nothing` if it is not, or
@@ -201,8 +201,8 @@ MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& exp
 /// the offset of another meeting that the step passes before it, or to zero, and `rounding` to the error of
 /// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
 /// digits.
-RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                                    StrandSampler& strands, double& earlier, double& rounding) {
+LandingSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
+                                       StrandSampler& strands, double& earlier, double& rounding) {
   const double h = step_.h;
   const std::size_t index = expected.a.track;
   Track there;
@@ -210,23 +210,23 @@ RealSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expe
     there = step_.right.tracks[index];
   } else {
     std::optional<SolvedPoint> point = solver_.points().follow(one_track(*step_.left, index), distance);
-    if (!point) return {RealSight::Kind::failed};
+    if (!point) return {LandingSight::Kind::failed};
     there = std::move(point->node.tracks.front());
   }
   if (!expected.is_of_all) there.roots = in_order_of(strands(distance / h), there.roots);
   const Meeting meeting = seen_from(there, expected);
-  if (!meeting.found) return {RealSight::Kind::absent};
+  if (!meeting.found) return {LandingSight::Kind::absent};
   rounding = meeting.rounding;
   const double move = std::abs(meeting.offset);
   const bool is_wide =
       meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
-  if (is_wide && move < near_veering * meeting.half_width) return {RealSight::Kind::absent};
+  if (is_wide && move < near_veering * meeting.half_width) return {LandingSight::Kind::absent};
   const bool near = !expected.is_of_all && move <= std::max(seen_well * std::abs(h), at_point_);
   earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
   const double share = (distance + meeting.offset) / h;
   const bool trusted =
       trusting && move <= seen_well * std::abs(h) && share > seen_well && share < 1.0 && earlier == 0.0;
-  return {trusted ? RealSight::Kind::settled : RealSight::Kind::seen, meeting.offset};
+  return {trusted ? LandingSight::Kind::settled : LandingSight::Kind::seen, meeting.offset};
 }
 
 /// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
@@ -236,8 +236,9 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
                                                 double& distance, int& looks) {
   const PathFrame& frame = solver_.points().frame();
   const double h = step_.h;
-  const double resolution =
-      frame.plane ? settled : settled * std::max(frame.range.length(), std::abs(step_.left->p));
+  const double resolution = frame.plane
+                                ? landing_accuracy
+                                : landing_accuracy * std::max(frame.range.length(), std::abs(step_.left->p));
   StrandSampler strands(*step_.left, step_.right, expected.a.track, h);
   std::optional<double> later;  // a meeting that was located before one in front of it was looked for
   const auto no_other = [&] {
@@ -251,9 +252,9 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     WalkRules rules;
     const auto look = [&](double at) {
       double rounding = 0.0;
-      const RealSight sight = look_from(at, expected, trusting, strands, earlier, rounding);
+      const LandingSight sight = look_from(at, expected, trusting, strands, earlier, rounding);
       rules.rounding = std::max(at_point_, rounding);
-      own_end = sight.kind == RealSight::Kind::settled;
+      own_end = sight.kind == LandingSight::Kind::settled;
       return sight;
     };
     rules.resolution = resolution;

@@ -9,7 +9,7 @@ namespace eigentrail {
 namespace {
 
 /// Safety factor on estimates of rounding errors.
-constexpr double rounding_margin = 10.0;
+constexpr double resolution_rounding_margin = 10.0;
 /// The discriminant of a part that is not a multiple of the unit matrix has an error of about this many times
 /// the error of Lambda times the norm of the centred part.
 constexpr double error_factor = 4.0;
@@ -67,7 +67,8 @@ RootResolution resolution_of_roots(const Track& track, const std::vector<int>& m
   known.defective =
       known.distance > scalar * std::max(size, share_of_change * rounding.slope * std::abs(reach));
   if (slope > 0.0)
-    known.noise = rounding_margin * rounding.lambda * std::max(known.distance, rounding.lambda) / slope;
+    known.noise =
+        resolution_rounding_margin * rounding.lambda * std::max(known.distance, rounding.lambda) / slope;
   // A single root, whose parabola has no other root within reach, moves by the error of the discriminant over
   // the slope; a double root by the square root of the error over the curvature.
   const bool is_single = slope > 2.0 * std::abs(reach) * curvature;

@@ -13,7 +13,7 @@ namespace {
 
 /// Relative distance of an eigenvalue of a block from the others above which it is computed as a single mode.
 /// This costs less and is more accurate; at smaller distances the eigenvectors are ill-conditioned.
-constexpr double apart = 1e-3;
+constexpr double distinct_share = 1e-3;
 /// As a share of the distance to the nearest other eigenvalue: if the single mode differs from its prediction
 /// by more, the corrector may have converged to the other one.
 constexpr double moved_too_far = 0.1;
@@ -37,7 +37,7 @@ std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt
   for (Eigen::Index j = 0; j < roots.size(); ++j) {
     if (j != nearest) gap = std::min(gap, std::abs(roots[j] - root));
   }
-  if (!(gap > apart * std::abs(root))) return std::nullopt;
+  if (!(gap > distinct_share * std::abs(root))) return std::nullopt;
   prediction.pairs.front() = part_of(prediction.pairs.front(), roots, {static_cast<int>(nearest)});
   std::optional<SolvedPoint> there = solver.solve(prediction, base.node.basis.T[0]);
   if (there && !(std::abs(there->node.tracks.front().roots[0] - root) <= moved_too_far * gap)) there.reset();

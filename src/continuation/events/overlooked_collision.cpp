@@ -11,7 +11,7 @@ namespace eigentrail {
 namespace {
 
 /// Safety factor on the bounds of rounding errors.
-constexpr double rounding_margin = 10.0;
+constexpr double overlooked_rounding_margin = 10.0;
 
 Eigen::Index count_real(const ComplexVector& roots) {
   return (roots.array().imag() == 0.0).count();
@@ -21,7 +21,7 @@ Eigen::Index count_real(const ComplexVector& roots) {
 /// nearly coincide are known to a high root of rounding only.
 std::optional<Eigen::Index> count_real(const ComplexVector& functions, const ComplexVector& roots,
                                        const Vector& rounding) {
-  if (!are_told_apart(functions, roots, rounding_margin * rounding)) return std::nullopt;
+  if (!are_told_apart(functions, roots, overlooked_rounding_margin * rounding)) return std::nullopt;
   return count_real(roots);
 }
 

@@ -18,15 +18,15 @@ namespace {
 
 /// Degree of the polynomials that represent eigenvalues on a step. The dense output of a single mode has at
 /// most this degree; eigenvalues of a block are smooth enough on a step that has been accepted.
-constexpr int degree = 16;
-using Samples = std::array<Complex, degree + 1>;
+constexpr int crossing_degree = 16;
+using Samples = std::array<Complex, crossing_degree + 1>;
 
 /// The Chebyshev points of [0, 1] at which a polynomial of that degree is sampled.
-const std::array<double, degree + 1>& sample_points() {
+const std::array<double, crossing_degree + 1>& sample_points() {
   static const auto points = [] {
-    std::array<double, degree + 1> all = {};
+    std::array<double, crossing_degree + 1> all = {};
     std::size_t k = 0;
-    chebyshev_coefficients([&](double t) { return all[k++] = t; }, degree);
+    chebyshev_coefficients([&](double t) { return all[k++] = t; }, crossing_degree);
     return all;
   }();
   return points;
@@ -39,7 +39,7 @@ std::size_t nearest_sample(double t) {
 }
 
 /// As a share of the range: accuracy to which crossings are located.
-constexpr double resolution_share = 1e-11;
+constexpr double crossing_resolution = 1e-11;
 /// In units of the resolution: moves up to this that no longer shrink are rounding.
 constexpr double rounding_moves = 100.0;
 
@@ -110,9 +110,9 @@ std::vector<double> zeros(const SampledMode& a, const SampledMode& b) {
     const std::size_t k = nearest_sample(t);
     return Complex(signed_difference(a.s[k], b.s[k]));
   };
-  const ComplexVector coefficients = chebyshev_coefficients(difference, degree);
+  const ComplexVector coefficients = chebyshev_coefficients(difference, crossing_degree);
   // The constant term is larger than all others together: no zero, and none closely behind the ends.
-  const double others = coefficients.tail(degree).cwiseAbs().sum();
+  const double others = coefficients.tail(crossing_degree).cwiseAbs().sum();
   if (std::abs(coefficients[0]) > (1.0 + 2.0 * off_the_ends) * others) return {};
   std::vector<double> found;
   for (const Complex t : chebyshev_roots(coefficients)) {
@@ -201,7 +201,7 @@ std::optional<Event> CrossingWalk::from(double t) {
   expected_ = t;
   const double speed = std::max(std::abs(search_.frame().speed(*step_.left)), 1e-300);
   WalkRules rules;
-  rules.resolution = resolution_share * search_.frame().range.length() / speed;
+  rules.resolution = crossing_resolution * search_.frame().range.length() / speed;
   rules.rounding = rounding_moves * rules.resolution;
   const auto found = walk(t * step_.h, rules, [this](double h) { return look(h); });
   if (found.end != WalkEnd::settled) return std::nullopt;

@@ -7,10 +7,10 @@ namespace eigentrail {
 namespace {
 
 /// Half the length of the first bridge on the other path, in the scaled coordinate. Shorter bridges follow,
-/// by the factor `shrinking`, until one is accurate or the shortest length is reached.
+/// by the factor `crossing_shrinking`, until one is accurate or the shortest length is reached.
 constexpr double first_reach = 0.05;
 constexpr double shortest_reach = 1e-4;
-constexpr double shrinking = 0.6;
+constexpr double crossing_shrinking = 0.6;
 /// Relative to the scales of x and p: a path that passes the branch point at a larger distance is not the one
 /// that crosses there.
 constexpr double same_point = 1e-8;
@@ -63,7 +63,8 @@ std::optional<Bridge> bridge_along(const PointSolver& solver, const PathPlane& p
   std::optional<Bridge> best;
   double least = fair_bridge;
   const double here = plane(node.path.x.col(0), node.path.lambda.col(0), node.p);
-  for (double reach = first_reach; reach > shortest_reach && least > good_bridge; reach *= shrinking) {
+  for (double reach = first_reach; reach > shortest_reach && least > good_bridge;
+       reach *= crossing_shrinking) {
     const std::optional<SidePoint> left = side_point_on(solver, plane, node, -reach);
     const std::optional<SidePoint> right = side_point_on(solver, plane, node, reach);
     if (!left || !right) continue;

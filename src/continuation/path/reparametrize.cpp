@@ -15,7 +15,7 @@ constexpr double bending_back = 3e-3;
 /// Motion on a step, over the scale of x, up to which x rests: then the trimmed parameters tell whether the
 /// path turns back. Where x moves it tells, and u may have series of its own, such as a square root of the
 /// load.
-constexpr double no_motion = 1e-6;
+constexpr double no_path_motion = 1e-6;
 
 /// Substitutes the coordinate in all series of the path. `table`: powers of the old coordinate in the new
 /// one.
@@ -96,7 +96,7 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
   const Eigen::Index last = path.x.cols() - 1;
   if (last < 2) return false;
   const double sigma = std::abs(h / coefficient(turned.parameters, traced, 1));
-  const bool rests = scales.u.size() > 0 && path.x.col(1).norm() * std::abs(h) <= no_motion * scales.x;
+  const bool rests = scales.u.size() > 0 && path.x.col(1).norm() * std::abs(h) <= no_path_motion * scales.x;
   const auto tail = [&](const Path& series, double step) {
     const Direction end = term(series, traced, scales, last);
     const double x = rests ? Direction{Vector(), end.u}.length(scales) : end.x.norm() / scales.x;

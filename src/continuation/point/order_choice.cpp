@@ -12,8 +12,8 @@ namespace {
 // choice of the order, and so the cost of a trace.
 constexpr double factorizations = 1.9;              ///< complex LU, rejected steps included
 constexpr double certificate_factorizations = 1.1;  ///< the same for the certificate
-constexpr double corrections = 6.75;                ///< solves, each with a residual, for the correction
-constexpr double refinements = 4.5;                 ///< the same, per coefficient of a series
+constexpr double order_corrections = 6.75;          ///< solves, each with a residual, for the correction
+constexpr double order_refinements = 4.5;           ///< the same, per coefficient of a series
 constexpr double products = 0.1;  ///< cost of a product of two coefficients relative to such a solve
 /// Points that no order saves (ends of the range, special points), in units of L / R. With a larger value
 /// lower orders are chosen.
@@ -29,7 +29,7 @@ double work_per_point(const TraceSize& size, int order) {
   const double solve = 10.0 * n * n;
   const double coefficients = order + 1.0;
   return (factorizations + (size.certify ? certificate_factorizations : 0.0)) * lu +
-         (corrections + refinements * coefficients * (1.0 + products * coefficients)) * solve;
+         (order_corrections + order_refinements * coefficients * (1.0 + products * coefficients)) * solve;
 }
 
 double relative_points(int order, double tolerance) {

@@ -8,8 +8,8 @@ namespace eigentrail {
 namespace {
 
 /// As in certificate.cpp: power iterations of a norm estimate, and the factor on it.
-constexpr int power_iterations = 4;
-constexpr double norm_safety = 1.2;
+constexpr int distance_iterations = 4;
+constexpr double distance_safety = 1.2;
 /// In place of infinity, so that products with zero are numbers.
 constexpr double beyond_all = 1e100;
 
@@ -52,7 +52,7 @@ double inverse_distance(const ComplexMatrix& A, const ComplexMatrix& B) {
   ComplexMatrix X(A.rows(), B.rows());
   for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = {1.0, std::sin(1.0 + 2.3 * static_cast<double>(i))};
   double norm = 0.0;
-  for (int i = 0; i < power_iterations; ++i) {
+  for (int i = 0; i < distance_iterations; ++i) {
     X.normalize();
     solve(A, B, X);
     const double forward = X.norm();
@@ -62,7 +62,7 @@ double inverse_distance(const ComplexMatrix& A, const ComplexMatrix& B) {
     norm = std::max({norm, forward, X.norm()});
     if (!(norm < beyond_all)) return beyond_all;
   }
-  return norm_safety * norm;
+  return distance_safety * norm;
 }
 
 }  // namespace eigentrail

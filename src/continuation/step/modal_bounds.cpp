@@ -11,9 +11,9 @@ namespace eigentrail {
 namespace {
 
 /// As in certificate.cpp: factor on Z2, which is evaluated at the middle of a piece only.
-constexpr double curvature_safety = 1.5;
+constexpr double bound_curvature_safety = 1.5;
 /// Sweeps of the balancing; more change the bounds by a few per cent.
-constexpr int sweeps = 2;
+constexpr int bound_sweeps = 2;
 
 }  // namespace
 
@@ -91,7 +91,7 @@ Vector ModalBounds::balancing_scales(std::size_t track) const {
   };
   for (std::size_t a = 0; a < places_.places.size(); ++a)
     rows_of(a, [&](Eigen::Index i) { squares.row(static_cast<Eigen::Index>(a)) += divided.row(i); });
-  const Vector of_places = eigentrail::balancing_scales(std::move(squares), sweeps);
+  const Vector of_places = eigentrail::balancing_scales(std::move(squares), bound_sweeps);
   Vector scales(places_.rows());
   for (std::size_t a = 0; a < places_.places.size(); ++a)
     rows_of(a, [&](Eigen::Index i) { scales[i] = of_places[static_cast<Eigen::Index>(a)]; });
@@ -156,7 +156,7 @@ ModalBounds::Result ModalBounds::of_track(std::size_t track) const {
     // Not a number where this scale does not exist.
     const double Z1 = largest.Z1(kappa, nearest);
     if (Z1 < result.Z1) result.Z1 = Z1;
-    const double Z2 = curvature_safety * 2.0 * kappa * nearest;
+    const double Z2 = bound_curvature_safety * 2.0 * kappa * nearest;
     const double room = 1.0 - completed.Z1(kappa, nearest);
     result.closes = result.closes || (room > 0.0 && room * room > 2.0 * Z2 * completed.Y(kappa));
   }

@@ -14,9 +14,9 @@ namespace eigentrail {
 namespace {
 
 /// A step is halved up to this often: one basis serves all modes, so that more halvings cost less here.
-constexpr int max_depth = 6;
+constexpr int modal_max_depth = 6;
 /// As in certificate.cpp: halving is given up for a track whose Z1 >= 1 does not decrease to this share.
-constexpr double falling = 0.75;
+constexpr double modal_falling = 0.75;
 /// Largest rounding error of modal coordinates: the reciprocal condition of the basis is then 1e-4. In a
 /// worse one vectors are nearly parallel. Each mode can still be told from the others in its own norm, but
 /// not much farther on all of them meet, and a block of some of them no longer converges there. With a larger
@@ -126,8 +126,9 @@ class ModalTube {
     for (std::size_t i = 0; i < open.size(); ++i) {
       open[i] = wanted[i] && closed[i] && !here[i];
       // Z1 decreases at best in proportion to the length of the piece.
-      const bool is_hopeless = !(Z1[i] < std::exp2(max_depth - depth)) ||
-                               (Z1[i] >= 1.0 && !(Z1[i] <= falling * last[i])) || depth == max_depth;
+      const bool is_hopeless = !(Z1[i] < std::exp2(modal_max_depth - depth)) ||
+                               (Z1[i] >= 1.0 && !(Z1[i] <= modal_falling * last[i])) ||
+                               depth == modal_max_depth;
       if (open[i] && is_hopeless) open[i] = closed[i] = false;
       is_done = is_done && !open[i];
     }

@@ -25,8 +25,9 @@ constexpr double checksum_tolerance = 1e-7;
 constexpr double singular = 1e-9;
 /// Largest relative difference of a track from its eigenvalue in the spectrum. QZ gives a double eigenvalue
 /// to 1e-8, a triple one to 1e-5.
-constexpr double same = 1e-4;
-/// Largest cost in the assignment, also that of a track or a mode without a counterpart. Far above `same`.
+constexpr double same_root = 1e-4;
+/// Largest cost in the assignment, also that of a track or a mode without a counterpart. Far above
+/// `same_root`.
 constexpr double unrelated = 1e6;
 /// A track with a larger backward error is no eigenpair: corrected pairs have errors close to rounding.
 constexpr double largest_backward_error = 1e-8;
@@ -126,7 +127,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
   const std::vector<int> assignment = optimal_assignment(cost);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const int j = assignment[i];
-    if (j < static_cast<int>(taken.size()) && cost(static_cast<Eigen::Index>(i), j) <= same)
+    if (j < static_cast<int>(taken.size()) && cost(static_cast<Eigen::Index>(i), j) <= same_root)
       taken[static_cast<std::size_t>(j)] = true;
   }
   std::vector<StartingMode> missing;

@@ -14,7 +14,7 @@ namespace {
 /// Eigenvalues of a block get no derivative if their distance from another one, relative to the norm of the
 /// block, is at most this. Beside an exceptional point the slope is proportional to 1 / distance, and
 /// rounding changes it by eps / distance^2, relatively: 2e-4 at this limit, times the condition of the block.
-constexpr double coinciding = 1e-6;
+constexpr double coinciding_roots = 1e-6;
 /// Smallest norm of a block as a scale: keeps the limit above zero where all eigenvalues are zero.
 constexpr double least_scale = 1e-300;
 
@@ -41,7 +41,7 @@ Complex slope_of(const Track& track, Complex root, Eigen::Index index, double sp
   for (Eigen::Index j = 0; j < track.size(); ++j) {
     if (j != index) nearest = std::min(nearest, std::abs(track.roots[j] - root));
   }
-  if (!(nearest > coinciding * scale)) return {nan, nan};
+  if (!(nearest > coinciding_roots * scale)) return {nan, nan};
   const ComplexVector series = root_series(track.functions, root);
   return series.size() > 1 ? series[1] / speed : Complex(nan, nan);
 }
