@@ -1,18 +1,11 @@
 #include "core/precompiled.hpp"
 
 template class Eigen::RealSchur<Eigen::MatrixXd>;
-template class Eigen::ComplexSchur<Eigen::MatrixXcd>;
 template class Eigen::EigenSolver<Eigen::MatrixXd>;
-template class Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
 template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-
 template Eigen::RealSchur<Eigen::MatrixXd>& Eigen::RealSchur<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
-template Eigen::ComplexSchur<Eigen::MatrixXcd>& Eigen::ComplexSchur<Eigen::MatrixXcd>::compute(
-    const Eigen::EigenBase<Eigen::MatrixXcd>&, bool);
 template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
-template Eigen::ComplexEigenSolver<Eigen::MatrixXcd>& Eigen::ComplexEigenSolver<Eigen::MatrixXcd>::compute(
-    const Eigen::EigenBase<Eigen::MatrixXcd>&, bool);
 template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, int);

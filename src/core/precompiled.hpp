@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/precompiled_kernels.hpp"
+#include "core/precompiled_products.hpp"
 
 extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
@@ -31,6 +32,7 @@ extern template class Eigen::ComplexSchur<Eigen::MatrixXcd>;
 extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
 extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>;
 
 // Member functions that are templates themselves
 extern template Eigen::RealSchur<Eigen::MatrixXd>& Eigen::RealSchur<Eigen::MatrixXd>::compute(
@@ -43,3 +45,11 @@ extern template Eigen::ComplexEigenSolver<Eigen::MatrixXcd>&
 Eigen::ComplexEigenSolver<Eigen::MatrixXcd>::compute(const Eigen::EigenBase<Eigen::MatrixXcd>&, bool);
 extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, int);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>::compute(const Eigen::EigenBase<Eigen::MatrixXcd>&, int);
+extern template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&);
+extern template double Eigen::internal::rcond_invmatrix_L1_norm_estimate(
+    const Eigen::PartialPivLU<Eigen::MatrixXcd>&);
+extern template double Eigen::internal::rcond_invmatrix_L1_norm_estimate(
+    const Eigen::FullPivLU<Eigen::MatrixXd>&);

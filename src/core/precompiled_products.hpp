@@ -87,13 +87,15 @@ template <class Left, class Right>
 concept Matrices = Compiled<typename Left::Scalar> && Compiled<typename Right::Scalar> &&
                    Left::ColsAtCompileTime == Eigen::Dynamic&& Right::RowsAtCompileTime == Eigen::Dynamic;
 
-/// The same with a vector on one side, and a matrix that is in memory or is a product.
+/// The matrix of a product with a vector: a product itself is evaluated, another expression stays one.
 template <class Left, class Right>
-concept MatrixAndVector =
-    Matrices<Left, Right> && std::same_as<typename Left::Scalar, typename Right::Scalar> &&
-    in_memory < std::remove_cvref_t < typename Eigen::internal::nested_eval <
-    std::conditional_t<bool(Left::IsVectorAtCompileTime), Right, Left>,
-1 > ::type >> ;
+using MatrixOf = std::remove_cvref_t<typename Eigen::internal::nested_eval<
+    std::conditional_t<bool(Left::IsVectorAtCompileTime), Right, Left>, 1>::type>;
+
+/// A product with a vector on one side, of a matrix that is in memory.
+template <class Left, class Right>
+concept MatrixAndVector = Matrices<Left, Right> &&
+    std::same_as<typename Left::Scalar, typename Right::Scalar> && in_memory<MatrixOf<Left, Right>>;
 
 }  // namespace eigentrail::compiled
 
@@ -147,7 +149,9 @@ struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemvProduct>
     const Scalar scale = combine_scalar_factors(alpha, left, right);
     with_factor(left, [&](const Factor<Scalar>& a) {
       with_factor(right, [&](const Factor<Scalar>& b) {
-        with_result(result, [&](const auto& y) {
+        with_result(result, [&](auto y) {
+          // A matrix may be what a row or a column is written to.
+          if (!Result::IsVectorAtCompileTime && y.by_rows == bool(Left::IsVectorAtCompileTime)) y.stride = 1;
           if constexpr (Left::IsVectorAtCompileTime)
             add_vector_product(scale, transposed(b), transposed(a), y);
           else

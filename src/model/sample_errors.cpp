@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/orthonormal.hpp"
 #include "model/sample_interpolation.hpp"
 
 namespace eigentrail {
@@ -37,7 +38,7 @@ Matrix orthonormal_polynomials(const std::vector<double>& nodes) {
           ((2.0 * degree - 1.0) * x * legendre(i, k - 1) - (degree - 1.0) * legendre(i, k - 2)) / degree;
     }
   }
-  return Eigen::HouseholderQR<Matrix>(legendre).householderQ();
+  return whole_Q(Eigen::HouseholderQR<Matrix>(legendre));
 }
 
 /// The same, multiplied by the denominator of the interpolant and of unit length: factors of the samples that

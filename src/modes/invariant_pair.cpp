@@ -1,4 +1,5 @@
 #include "eigentrail/modes/invariant_pair.hpp"
+#include "core/orthonormal.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -38,7 +39,7 @@ constexpr double independent = 1e-3;
 using Reflections = Eigen::HouseholderQR<ComplexMatrix>;
 
 ComplexMatrix orthonormal_basis(const Reflections& qr) {
-  return qr.householderQ() * ComplexMatrix::Identity(qr.rows(), qr.cols());
+  return columns_of_Q(qr, qr.cols());
 }
 
 bool are_independent(const Reflections& qr) {
@@ -47,7 +48,7 @@ bool are_independent(const Reflections& qr) {
 }
 
 double smallest_singular_value(const ComplexMatrix& columns) {
-  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(columns.adjoint() * columns,
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(ComplexMatrix(columns.adjoint() * columns),
                                                              Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(squares.eigenvalues()[0], 0.0));
 }

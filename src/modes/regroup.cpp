@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/orthonormal.hpp"
 #include "modes/ordered_schur.hpp"
 
 namespace eigentrail {
@@ -102,7 +103,7 @@ InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalue
     Matrix parts(k, 2 * size);
     parts << basis.real(), basis.imag();
     const Eigen::ColPivHouseholderQR<Matrix> qr(parts);
-    const Matrix real_basis = qr.householderQ() * Matrix::Identity(k, size);
+    const Matrix real_basis = columns_of_Q(qr, size);
     basis = real_basis.cast<Complex>();
     result.Lambda = (real_basis.transpose() * pair.Lambda.real() * real_basis).cast<Complex>();
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/lapack.hpp"
+#include "core/orthonormal.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/reduction/chirality.hpp"
 
@@ -405,8 +406,7 @@ InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Com
   ComplexMatrix X(a.rows(), k);
   for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = std::sin(1.0 + 1.7 * static_cast<double>(i));
   for (int i = 0; i < iterations; ++i) {
-    const ComplexMatrix Y = lu.solve(complex_b * X);
-    X = Eigen::HouseholderQR<ComplexMatrix>(Y).householderQ() * ComplexMatrix::Identity(a.rows(), k);
+    X = orthonormal(ComplexMatrix(lu.solve(complex_b * X)));
   }
   InvariantPair pair;
   pair.is_real = is_real;

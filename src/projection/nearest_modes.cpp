@@ -1,4 +1,5 @@
 #include "projection/nearest_modes.hpp"
+#include "core/orthonormal.hpp"
 
 #include <Spectra/GenEigsSolver.h>
 
@@ -270,8 +271,7 @@ Shift beside_rigid_motions(const SparsePencil& pencil, const PencilSolver& facto
     return std::cos(static_cast<double>((i + 1) * (2 * j + 1)) * 0.7548776662466927);
   });
   for (int i = 0; i < rounds; ++i) {
-    const Eigen::HouseholderQR<Matrix> qr(factors.solve(Matrix(inertia * Q)));
-    Q = qr.householderQ() * Matrix::Identity(n, Q.cols());
+    Q = orthonormal(factors.solve(Matrix(inertia * Q)));
   }
   const Matrix small = (Q.transpose() * (inertia * Q)).partialPivLu().solve(Q.transpose() * (pencil.K * Q));
   Vector values = Eigen::EigenSolver<Matrix>(small, false).eigenvalues().cwiseAbs();

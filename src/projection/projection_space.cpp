@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "core/singular_vectors.hpp"
 
@@ -21,7 +22,7 @@ void orthogonalize(const Matrix& Q, Matrix& B) {
 }
 
 /// An orthonormal basis of the columns of B, without those that are negligible beside the ones before.
-Matrix orthonormal(Matrix B) {
+Matrix independent_basis(Matrix B) {
   Eigen::Index count = 0;
   for (Eigen::Index j = 0; j < B.cols(); ++j) {
     Vector column = B.col(j);
@@ -43,7 +44,7 @@ void ProjectionSpace::add(const ComplexMatrix& vectors, Side side) {
   // What is left of a vector that nearly lies in the space is known to few digits until it is long again.
   for (int pass = 0; pass < 2; ++pass) {
     orthogonalize(basis_, fresh);
-    fresh = orthonormal(std::move(fresh));
+    fresh = independent_basis(std::move(fresh));
   }
   const Eigen::Index before = basis_.cols(), count = fresh.cols();
   basis_.conservativeResize(Eigen::NoChange, before + count);
@@ -58,8 +59,7 @@ void ProjectionSpace::add(const ComplexMatrix& vectors, Side side) {
 void ProjectionSpace::reduce(const Matrix& energy, double accuracy) {
   const Components all = components(energy, Side::both);
   const Eigen::Index rank = all.needed(accuracy);
-  const Matrix parts = Eigen::HouseholderQR<Matrix>(all.parts.leftCols(rank)).householderQ() *
-                       Matrix::Identity(all.parts.rows(), rank);
+  const Matrix parts = orthonormal(Matrix(all.parts.leftCols(rank)));
   basis_ = product(basis_, parts);
   vectors_ = transposed_product(parts, vectors_);
 }

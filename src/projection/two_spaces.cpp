@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "core/singular_vectors.hpp"
 
@@ -16,11 +17,6 @@ namespace {
 /// more coordinates.
 constexpr double least_cosine = 0.1;
 
-Matrix orthonormal(const Matrix& columns) {
-  return Eigen::HouseholderQR<Matrix>(columns).householderQ() *
-         Matrix::Identity(columns.rows(), columns.cols());
-}
-
 /// Vectors with x_i^T E x_j = 0 for i != j, else +-1, in the space of the columns of B.
 Matrix normalized(const Matrix& B, const Matrix& energy) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(congruence(B, energy, B));
@@ -30,7 +26,7 @@ Matrix normalized(const Matrix& B, const Matrix& energy) {
       B, Matrix(solver.eigenvectors() * sizes.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal()));
 }
 
-Matrix side_by_side(const Matrix& A, const Matrix& B) {
+Matrix joined(const Matrix& A, const Matrix& B) {
   Matrix both(A.rows(), A.cols() + B.cols());
   both << A, B;
   return both;
@@ -47,8 +43,8 @@ TwoSpaces two_spaces(const ProjectionSpace& both, const Matrix& energy, double a
   const Eigen::Index few = (angles.values.array() < least_cosine).count();
   const Matrix v = product(V, Matrix(angles.V.rightCols(few)));
   const Matrix w = product(W, Matrix(angles.U.rightCols(few)));
-  V = orthonormal(side_by_side(V, w));
-  W = orthonormal(side_by_side(W, v));
+  V = orthonormal(joined(V, w));
+  W = orthonormal(joined(W, v));
   // The polar factor of W^T E V turns the left basis to the right one.
   const SingularVectors<Matrix> turn = singular_vectors(congruence(W, E, V));
   return {std::move(V), product(W, product(turn.U, Matrix(turn.V.transpose())))};

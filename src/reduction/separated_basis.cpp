@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagonal_blocks.hpp"
+#include "core/orthonormal.hpp"
 
 namespace eigentrail {
 namespace {
@@ -24,7 +25,7 @@ Matrix separated_basis(const ConstraintFactorization& constraints) {
     const Matrix own = P(block.rows, block.columns);
     const auto rank = static_cast<Eigen::Index>(std::lround(own.trace()));
     if (first + rank > Q2.cols()) return Q2;
-    const Matrix Q = own.colPivHouseholderQr().householderQ();
+    const Matrix Q = whole_Q(own.colPivHouseholderQr());
     basis(block.rows, Eigen::seqN(first, rank)) = Q.leftCols(rank);
     first += rank;
   }

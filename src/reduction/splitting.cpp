@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "core/singular_vectors.hpp"
 #include "eigentrail/core/complex_lu.hpp"
@@ -252,7 +253,7 @@ Matrix real_basis(const ComplexMatrix& columns, Eigen::Index size) {
   Eigen::ColPivHouseholderQR<Matrix> qr(parts);
   qr.setThreshold(dependent);
   if (qr.rank() != size) return {};
-  return qr.householderQ() * Matrix::Identity(columns.rows(), size);
+  return columns_of_Q(qr, size);
 }
 
 /// Orthonormal basis of the space of the `size` eigenvalues of G next to s, by inverse iteration: the
@@ -267,7 +268,7 @@ ComplexMatrix invariant_space(const Matrix& G, Complex s, Eigen::Index size, Ran
   for (int i = 0; i < passes; ++i) {
     lu.solve_in_place(space);
     if (!space.allFinite()) return {};
-    space = space.householderQr().householderQ() * ComplexMatrix::Identity(n, size);
+    space = orthonormal(space);
   }
   return space;
 }
@@ -340,8 +341,7 @@ std::optional<Splitting> split_any(const std::vector<Matrix>& all, Search& searc
   result.left = right.solve(rows).transpose();
   at = 0;
   for (const Eigen::Index size : result.sizes) {
-    const Matrix columns = result.left.middleCols(at, size);
-    result.left.middleCols(at, size) = columns.householderQr().householderQ() * Matrix::Identity(n, size);
+    result.left.middleCols(at, size) = orthonormal(Matrix(result.left.middleCols(at, size)));
     at += size;
   }
   return result;

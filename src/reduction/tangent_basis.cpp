@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/diagonal_blocks.hpp"
+#include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "eigentrail/reduction/chirality.hpp"
 
@@ -93,7 +94,7 @@ void randomize_basis(TangentBasis& basis, std::uint64_t seed) {
   std::normal_distribution<double> normal;
   const Eigen::Index size = basis.T[0].cols();
   const Matrix gaussian = Matrix::NullaryExpr(size, size, [&] { return normal(engine); });
-  const Matrix rotation = gaussian.householderQr().householderQ();
+  const Matrix rotation = whole_Q(gaussian.householderQr());
   basis.T[0] = basis.T[0] * rotation;
   basis.is_identity = false;
 }

@@ -31,8 +31,8 @@ def build(folder, options):
     log = folder / "costs.txt"
     launcher = f"{sys.executable};-IS;{pathlib.Path(__file__).resolve()};--launch;{log}"
     subprocess.run(["cmake", "--preset", "release", "-S", source, "-B", folder, f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}",
-                    *options], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", folder], check=True, stdout=subprocess.DEVNULL)
+                    *options], check=True, stdout=sys.stderr)
+    subprocess.run(["cmake", "--build", folder], check=True, stdout=sys.stderr)
     costs = sorted((line.split() for line in log.read_text().splitlines()), key=lambda words: -float(words[0]))
     print(f"{cpu():.0f} s in all, {sum(float(words[0]) for words in costs):.0f} s for {len(costs)} compilations, "
           f"at most {max(int(words[1]) for words in costs)} MB")

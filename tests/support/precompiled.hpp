@@ -3,4 +3,4 @@
 
 #include <gtest/gtest.h>
 
-#include "core/precompiled.hpp"
+#include "common_headers.hpp"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "eigentrail/core/complex_lu.hpp"
 #include "eigentrail/reduction/chirality.hpp"
@@ -263,10 +264,6 @@ class Bordered {
     if (!v_.allFinite() || !w.allFinite()) return;
     c_ = orthonormal(v_);
     b_ = orthonormal(w);
-  }
-
-  static ComplexMatrix orthonormal(const ComplexMatrix& columns) {
-    return columns.householderQr().householderQ() * ComplexMatrix::Identity(columns.rows(), columns.cols());
   }
 
   void differentiate(const PencilAt& pencil, Complex mu, const ComplexLu& lu, const ComplexMatrix& w,

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "continuation/step/tube_norm.hpp"
+#include "core/orthonormal.hpp"
 
 namespace eigentrail {
 
@@ -86,11 +87,11 @@ AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const TubeNorm& en
   // One pass of the subspace iteration.
   Q = times(std::move(Q));
   if (!Q.allFinite()) return {};
-  Q = Q.householderQr().householderQ() * ComplexMatrix::Identity(Q.rows(), Q.cols());
+  Q = orthonormal(Q);
   ComplexMatrix adjoint = adjoint_times(Q);
   if (!adjoint.allFinite()) return {};
   // The left singular vectors.
-  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(adjoint.adjoint() * adjoint);
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(ComplexMatrix(adjoint.adjoint() * adjoint));
   Q = Q * squares.eigenvectors();
   adjoint = adjoint * squares.eigenvectors();
   const ComplexMatrix TQ = times(Q);

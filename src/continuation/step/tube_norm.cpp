@@ -41,7 +41,8 @@ double TubeNorm::largest_eigenvalue_part() const {
     adapted_.apply(unit);
     rows.col(i) = unit;
   }
-  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(rows.adjoint() * rows, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(ComplexMatrix(rows.adjoint() * rows),
+                                                             Eigen::EigenvaluesOnly);
   return std::sqrt(squares.eigenvalues().maxCoeff());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "continuation/tracks/completeness.hpp"
+#include "core/orthonormal.hpp"
 #include "core/singular_vectors.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 double resemblance(const ComplexMatrix& a, const ComplexMatrix& b) {
   const auto basis = [](const ComplexMatrix& Z) {
     const Eigen::HouseholderQR<ComplexMatrix> qr(Z);
-    return ComplexMatrix(qr.householderQ() * ComplexMatrix::Identity(Z.rows(), std::min(Z.rows(), Z.cols())));
+    return columns_of_Q(qr, std::min(Z.rows(), Z.cols()));
   };
   const ComplexMatrix overlap = basis(a).adjoint() * basis(b);
   const double cosine = singular_vectors(overlap).values.minCoeff();

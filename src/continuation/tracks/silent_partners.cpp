@@ -59,7 +59,7 @@ struct RitzPairs {
 
 RitzPairs ritz_pairs(const InvariantPair& pair) {
   if (pair.is_real) {
-    const Eigen::EigenSolver<Matrix> solver(pair.Lambda.real());
+    const Eigen::EigenSolver<Matrix> solver(Matrix(pair.Lambda.real()));
     return {solver.eigenvalues(), pair.Z * solver.eigenvectors()};
   }
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);

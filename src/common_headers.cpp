@@ -1,0 +1,1 @@
+// Empty: CMake needs a source file for which the header is precompiled.
