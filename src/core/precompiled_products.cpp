@@ -59,14 +59,20 @@ bool is_small(const Factor<Left>& A, const Result<Scalar>& C) {
   return A.columns + C.rows + C.columns < EIGEN_GEMM_TO_COEFFBASED_THRESHOLD && A.columns > 0;
 }
 
-/// C = A B, coefficient by coefficient, for C by columns.
+/// C = A B for C by columns, coefficient by coefficient: of complex numbers a register holds but one.
 template <class Left, class Right, class Target>
 void set_small_product(const Factor<Left>& A, const Factor<Right>& B, Target& C) {
   with_forms(A, B, [&](auto order_A, auto conjugated_A, auto order_B, auto conjugated_B) {
     using Scalar = typename Target::Scalar;
-    Eigen::internal::call_restricted_packet_assignment_no_alias(
-        C, entries<order_A, conjugated_A>(A).lazyProduct(entries<order_B, conjugated_B>(B)),
-        Eigen::internal::assign_op<Scalar, Scalar>());
+    const auto AB = entries<order_A, conjugated_A>(A).lazyProduct(entries<order_B, conjugated_B>(B));
+    if constexpr (Eigen::NumTraits<Scalar>::IsComplex) {
+      for (Index j = 0; j < C.cols(); ++j) {
+        for (Index i = 0; i < C.rows(); ++i) C(i, j) = AB.coeff(i, j);
+      }
+    } else {
+      Eigen::internal::call_restricted_packet_assignment_no_alias(
+          C, AB, Eigen::internal::assign_op<Scalar, Scalar>());
+    }
   });
 }
 

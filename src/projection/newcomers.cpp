@@ -70,7 +70,8 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, c
     others.farthest = std::max(others.farthest, std::abs(mode.s - centre));
     others.largest = std::max(others.largest, std::abs(mode.s));
   }
-  others.s = eigenvalues_within(others.farthest, small, shift, static_cast<int>(place.modes.size()) + to_spare);
+  others.s =
+      eigenvalues_within(others.farthest, small, shift, static_cast<int>(place.modes.size()) + to_spare);
   for (const ProjectedMode& mode : place.modes) {
     if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
     others.s.erase(std::min_element(others.s.begin(), others.s.end(), [&](Complex a, Complex b) {
