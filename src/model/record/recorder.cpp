@@ -30,22 +30,21 @@ int Recorder::node(const Recorded& value) {
   return value.node();
 }
 
-Recorded Recorder::number(int slot) {
-  const auto [at, is_new] = number_index_.emplace(slot, record_.n_numbers);
+Recorded Recorder::input(Operator op, Inputs& inputs, int of_model, int& count) {
+  const auto [at, is_new] = inputs.index.emplace(of_model, count);
   if (is_new) {
-    numbers_.push_back(slot);
-    ++record_.n_numbers;
+    inputs.all.push_back(of_model);
+    ++count;
   }
-  return push({Operator::number, at->second});
+  return push({op, at->second});
+}
+
+Recorded Recorder::number(int slot) {
+  return input(Operator::number, numbers_, slot, record_.n_numbers);
 }
 
 Recorded Recorder::coordinate(int index) {
-  const auto [at, is_new] = coordinate_index_.emplace(index, record_.n_coordinates);
-  if (is_new) {
-    coordinates_.push_back(index);
-    ++record_.n_coordinates;
-  }
-  return push({Operator::coordinate, at->second});
+  return input(Operator::coordinate, coordinates_, index, record_.n_coordinates);
 }
 
 Recorded Recorder::constant(double value) {

@@ -38,8 +38,8 @@ class Recorder {
 
   /// The record, for the caller to set its outputs; and what its inputs are in the model.
   Record& record() { return record_; }
-  const std::vector<int>& numbers() const { return numbers_; }
-  const std::vector<int>& coordinates() const { return coordinates_; }
+  const std::vector<int>& numbers() const { return numbers_.all; }
+  const std::vector<int>& coordinates() const { return coordinates_.all; }
   const std::vector<const SmoothFunction*>& functions() const { return functions_; }
 
  private:
@@ -47,13 +47,18 @@ class Recorder {
     std::size_t operator()(const Operation& operation) const;
   };
 
+  /// Inputs of one kind: what they are in the model, and their indices by that.
+  struct Inputs {
+    std::vector<int> all;
+    std::unordered_map<int, int> index;
+  };
+
   Recorded push(Operation operation);
-  int input(Operator op, std::vector<int>& all, int index, int& count);
+  Recorded input(Operator op, Inputs& inputs, int of_model, int& count);
 
   Record record_;
   std::unordered_map<Operation, int, Hash> known_;
-  std::vector<int> numbers_, coordinates_;
-  std::unordered_map<int, int> number_index_, coordinate_index_;
+  Inputs numbers_, coordinates_;
   std::vector<const SmoothFunction*> functions_;
 };
 
