@@ -79,8 +79,8 @@ void take_apart(Motion& c, Motion& s, const Component& component, const ComplexV
 bool is_real(const ComplexVector& shape) {
   Eigen::Index most = 0;
   if (!(shape.cwiseAbs().maxCoeff(&most) > 0.0)) return true;
-  constexpr double rounding = 1e-8;
-  return (shape / shape[most]).imag().norm() <= rounding * shape.norm() / std::abs(shape[most]);
+  constexpr double in_phase = 1e-8;
+  return (shape / shape[most]).imag().norm() <= in_phase * shape.norm() / std::abs(shape[most]);
 }
 
 }  // namespace

@@ -301,15 +301,15 @@ ComplexMatrix columns(const std::vector<ComplexVector>& vectors, Eigen::Index n)
 
 /// The modes by their distance from the shift.
 NearestModes sorted(const Found& found, const Shift& shift, Eigen::Index n) {
-  std::vector<std::size_t> order(found.s.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::vector<std::size_t> by_distance(found.s.size());
+  std::iota(by_distance.begin(), by_distance.end(), std::size_t{0});
+  std::sort(by_distance.begin(), by_distance.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(found.s[a] - shift.value()) < std::abs(found.s[b] - shift.value());
   });
   NearestModes modes;
-  modes.s.resize(static_cast<Eigen::Index>(order.size()));
+  modes.s.resize(static_cast<Eigen::Index>(by_distance.size()));
   std::vector<ComplexVector> vectors;
-  for (const std::size_t i : order) {
+  for (const std::size_t i : by_distance) {
     modes.s[static_cast<Eigen::Index>(vectors.size())] = found.s[i];
     vectors.push_back(found.vectors[i]);
   }

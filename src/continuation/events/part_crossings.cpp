@@ -104,7 +104,7 @@ class SignedDifference {
 std::vector<double> zeros(const SampledMode& a, const SampledMode& b) {
   constexpr double beside_axis = 1e-2;  // imaginary part of t: double zeros split
   // By the error of the dense output, one at the end of the step may lie behind it: whirl of a shaft at rest.
-  constexpr double off_the_ends = 1e-3;
+  constexpr double past_the_ends = 1e-3;
   const SignedDifference signed_difference(a, b);
   const auto difference = [&](double t) {
     const std::size_t k = nearest_sample(t);
@@ -113,11 +113,11 @@ std::vector<double> zeros(const SampledMode& a, const SampledMode& b) {
   const ComplexVector coefficients = chebyshev_coefficients(difference, crossing_degree);
   // The constant term is larger than all others together: no zero, and none closely behind the ends.
   const double others = coefficients.tail(crossing_degree).cwiseAbs().sum();
-  if (std::abs(coefficients[0]) > (1.0 + 2.0 * off_the_ends) * others) return {};
+  if (std::abs(coefficients[0]) > (1.0 + 2.0 * past_the_ends) * others) return {};
   std::vector<double> found;
   for (const Complex t : chebyshev_roots(coefficients)) {
     const bool is_near =
-        std::abs(t.imag()) <= beside_axis && t.real() >= -off_the_ends && t.real() <= 1.0 + off_the_ends;
+        std::abs(t.imag()) <= beside_axis && t.real() >= -past_the_ends && t.real() <= 1.0 + past_the_ends;
     if (is_near) found.push_back(std::clamp(t.real(), 0.0, 1.0));
   }
   return found;
@@ -222,10 +222,10 @@ void add_crossings(const EventSearch& search, const Step& step, const SampledMod
     const std::size_t nearest = nearest_sample(t);
     const std::size_t next = nearest == 0 ? 1 : nearest - 1;
     // Far apart in the other component they do not coincide near here.
-    constexpr double beside = 10.0;
+    constexpr double nearby = 10.0;
     const double across = std::abs(signed_difference(a.s[nearest], b.s[nearest])) +
                           std::abs(signed_difference(a.s[next], b.s[next]));
-    if (std::abs(a.s[nearest] - b.s[nearest]) > beside * across + same * scale) continue;
+    if (std::abs(a.s[nearest] - b.s[nearest]) > nearby * across + same * scale) continue;
     if (auto event = CrossingWalk(search, step, a, b).from(t)) found.events.push_back(std::move(*event));
   }
 }
