@@ -58,7 +58,7 @@ from = 5
 to = 9
 order = 1
 tolerance = 1e-9
-max_step = 0.004
+max_step = 0.001
 [frame]
 angular_velocity = [0, 0, "omega"]
 [gravity]
