@@ -56,9 +56,8 @@ class Assembly {
   MultibodyData data_;
   RecordedEquations equations_;
   std::vector<RecordedEquations> conditions_;  ///< by trim: its load, or its one equation
-  Record quantities_;                          ///< those that depend on parameters, of the parameters
-  Program quantity_values_;
-  std::vector<int> varying_;  ///< slot of each value of `quantity_values_`
+  Program quantity_values_;                    ///< those that depend on parameters, of the parameters
+  std::vector<int> varying_;                   ///< slot of each value of `quantity_values_`
   std::unique_ptr<Pool<double>> doubles_;
   std::unique_ptr<Pool<Extended>> extended_;
 };

@@ -55,8 +55,8 @@ struct RecordedEquations {
   std::array<Pattern, 4> patterns;    ///< of M, C, K and A, by Target
 };
 
-/// What is recorded of `data` besides the elements and constraints: the sizes, and that slots of multipliers
-/// follow those of quantities.
+/// Of elements and constraints that belong to `data`, not necessarily all of it. Slots of multipliers follow
+/// those of its quantities.
 RecordedEquations record_equations(const MultibodyData& data, const Elements& elements,
                                    const std::vector<Constraint>& constraints);
 
