@@ -146,14 +146,15 @@ ExportTable events_table(const LociFile& loci) {
 ExportTable ranges_table(const LociFile& loci) {
   ExportTable table{"stable_ranges",
                     {"kind", "from", "to", "cause_from", "cause_to", "margin_from", "margin_to", "mode_from",
-                     "mode_to", "least_margin", "largest_margin", "largest_at"},
+                     "mode_to", "least_margin", "largest_margin", "largest_at", "whole_model"},
                     {}};
   if (!loci.ranges) return table;
   const auto mode = [](int number) { return number < 0 ? Cell(NAN) : count(number + 1); };
   for (const StableRange& range : *loci.ranges) {
     table.rows.push_back({std::string(stability_name(range.kind)), range.from.p, range.to.p, range.from.cause,
                           range.to.cause, range.from.margin, range.to.margin, mode(range.from.mode),
-                          mode(range.to.mode), range.least_margin, range.largest_margin, range.largest_at});
+                          mode(range.to.mode), range.least_margin, range.largest_margin, range.largest_at,
+                          count(range.whole ? 1 : 0)});
   }
   return table;
 }

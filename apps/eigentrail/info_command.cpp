@@ -70,15 +70,6 @@ void print_trimmed(const LociFile& loci) {
   print_table(rows);
 }
 
-/// To which modes the stable ranges refer, in words; empty if to all.
-std::string followed_modes(const LociFile& loci) {
-  const std::string wanted = attribute(loci, "option_modes");
-  const std::string available = attribute(loci, "count_modes_available");
-  if (wanted == "all" || wanted == "?" || available == "?") return "";
-  if (wanted.find('=') != std::string::npos) return "modes with " + wanted + " followed, of " + available;
-  return std::stol(wanted) < std::stol(available) ? wanted + " of " + available + " modes followed" : "";
-}
-
 /// The order of the series as text, for example ", order 3 (auto)"; empty if the file does not contain it.
 std::string order_of_series(const LociFile& loci) {
   const std::string order = attribute(loci, "series_order");
@@ -129,7 +120,7 @@ void print_for_people(const LociFile& loci) {
   print_uncertified(loci);
   print_trimmed(loci);
   print_permanent(permanence, loci.mode_names);
-  if (loci.ranges) print_ranges(*loci.ranges, loci.parameter, followed_modes(loci));
+  if (loci.ranges) print_ranges(*loci.ranges, loci.parameter);
   if (!loci.events.empty())
     std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());
   if (const std::string notes = attribute(loci, "notes"); notes != "?" && !notes.empty())

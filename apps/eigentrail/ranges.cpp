@@ -65,10 +65,8 @@ void print_permanent(const std::vector<Permanence>& all, const std::vector<std::
   if (!constants.empty()) std::printf("  constant  modes %s\n", constants.c_str());
 }
 
-void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter,
-                  const std::string& whose) {
-  const std::string heading = "  stable ranges" + (whose.empty() ? "" : " (" + whose + ")");
-  std::printf("%s%s\n", heading.c_str(), ranges.empty() ? "  none" : "");
+void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter) {
+  std::printf("  stable ranges%s\n", ranges.empty() ? "  none" : "");
   std::vector<std::vector<std::string>> rows;
   double low = 0.0, high = 0.0;
   for (const StableRange& range : ranges) {
@@ -81,7 +79,7 @@ void print_ranges(const std::vector<StableRange>& ranges, const std::string& par
       margins = "margin " + rounded(range.least_margin, 4) + " to " + rounded(range.largest_margin, 4) +
                 " 1/s, largest at " + rounded(range.largest_at, 6);
     }
-    rows.push_back({"  " + stability_name(range.kind),
+    rows.push_back({"  " + stability_name(range.kind) + (range.whole ? "" : " among the followed modes"),
                     parameter + " = " + rounded(without_rounding(range.from.p, low, high), 12) + " -> " +
                         rounded(without_rounding(range.to.p, low, high), 12),
                     "from " + end_text(range.from, range.kind), "to " + end_text(range.to, range.kind),
@@ -94,6 +92,7 @@ nlohmann::ordered_json ranges_json(const std::vector<StableRange>& ranges) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const StableRange& range : ranges) {
     list.push_back({{"kind", stability_name(range.kind)},
+                    {"whole_model", range.whole},
                     {"from", end_json(range.from)},
                     {"to", end_json(range.to)},
                     {"least_margin", range.least_margin},

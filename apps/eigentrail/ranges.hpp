@@ -19,10 +19,8 @@ std::vector<Permanence> permanence_of_modes(const LociFile& loci);
 /// the stable ranges leave out. Nothing if all modes move. `names`: what moves, per mode; may be empty.
 void print_permanent(const std::vector<Permanence>& all, const std::vector<std::string>& names);
 
-/// Prints the ranges, one line each, under a heading. `whose`: the modes to which they refer, if not to all,
-/// for example "4 of 10 modes followed".
-void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter,
-                  const std::string& whose);
+/// Prints the ranges, one line each, under a heading.
+void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter);
 
 /// A list of objects with kind, from, to and margins. from and to are objects with parameter, cause, margin
 /// and mode (from 1; null if none is known).

@@ -120,8 +120,10 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
   return found;
 }
 
-bool is_onset(EventKind kind) {
-  return kind == EventKind::flutter || kind == EventKind::divergence;
+/// Also a collision on the imaginary axis, where an undamped system begins to flutter.
+bool is_onset(const Event& event) {
+  return event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
+         (event.kind == EventKind::collision && event.direction != 0);
 }
 
 /// "forward", "backward", "mixed" or "" for the mode of an event.
@@ -191,19 +193,13 @@ void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) 
     std::vector<std::string> row = event_row(found.event, parameter);
     std::string& remark = row.back();
     remark += (remark.empty() || found.interval.empty() ? "" : ", ") + found.interval;
-    (is_onset(found.event.kind) ? onsets : others).push_back(std::move(row));
+    (is_onset(found.event) ? onsets : others).push_back(std::move(row));
   }
   print_rows("onset of instability", onsets);
   print_rows("critical speeds", critical);
   print_separations(trace);
   print_rows("other special points", others);
   for (const std::string& note : trace.result.notes) std::printf("  note  %s\n", note.c_str());
-}
-
-/// To which modes the stable ranges refer, in words; empty if to all.
-std::string followed_modes(const TraceResult& result) {
-  if (result.n_modes == result.n_available) return "";
-  return std::to_string(result.n_modes) + " of " + std::to_string(result.n_available) + " modes followed";
 }
 
 /// How much of the loci is certified.
@@ -228,7 +224,7 @@ void print_summary(const TraceSummary& trace, bool verbose) {
   if (trace.errors != nullptr) print_data_errors(*trace.errors, trace.path, trace.result.s_ref);
   print_special_points(trace, unit);
   print_permanent(permanence, trace.mode_names);
-  print_ranges(trace.ranges, options.parameter, followed_modes(trace.result));
+  print_ranges(trace.ranges, options.parameter);
   std::printf("  work  %d points, %s s; %s\n", trace.result.nodes, rounded(trace.result.seconds, 3).c_str(),
               identity_text(trace).c_str());
   if (verbose) print_figures_of_work(trace);

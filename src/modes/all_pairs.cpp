@@ -204,7 +204,8 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
     const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(place.size));
     const double scale = pencil.magnitude(size) * pair.Z.norm();
     pair.backward_error = scale > 0.0 ? R.middleCols(place.first, place.size).norm() / scale : 0.0;
-    pair.condition = basis->sensitivity(place) * scale / std::max(size, reference);
+    settle_accuracy(basis->sensitivity(place, pencil.terms(pair.Z, pair.Lambda)), scale,
+                    std::max(size, reference), pair);
     corrected.push_back(std::move(pair));
   }
   return std::make_shared<const AllPairs>(AllPairs{std::move(pairs), std::move(*basis)});

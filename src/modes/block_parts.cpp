@@ -106,6 +106,7 @@ ComplexVector root_series(const ComplexMatrix& functions, Complex root) {
   const Eigen::Index k = block_size(functions.rows());
   if (k == 1) return functions.row(0).transpose();
   if (k == 2) {
+    if (functions.row(1).isZero(0.0)) return functions.row(0).transpose();  // both are one
     // The coefficients of sqrt(delta) follow from x^2 = delta. x_0 comes from the root, which is more
     // accurate than delta if the eigenvalues are nearly equal.
     ComplexVector x = ComplexVector::Zero(functions.cols());

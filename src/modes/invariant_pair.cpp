@@ -219,9 +219,15 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   remove_remnants(reference, pair.Lambda);
   const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
   pair.backward_error = backward_error(pencil, pair);
-  pair.condition = pair.factors->sensitivity() * residual_scale(pencil, pair) / std::max(size, reference);
+  settle_accuracy(pair.factors->sensitivity(pencil.terms(pair.Z, pair.Lambda)), residual_scale(pencil, pair),
+                  std::max(size, reference), pair);
   counts.solves += static_cast<std::uint64_t>(pair.size() * pair.size());
   return pair;
+}
+
+void settle_accuracy(const PairSensitivity& sensitivity, double scale, double size, InvariantPair& pair) {
+  pair.condition = sensitivity.to_residual * scale / size;
+  pair.rounding = std::numeric_limits<double>::epsilon() * sensitivity.to_terms;
 }
 
 Complex eigenvalue_remainder(const PencilAtPoint& pencil, const InvariantPair& pair) {

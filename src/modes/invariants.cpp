@@ -78,9 +78,12 @@ double least_gap(const ComplexVector& roots) {
 
 Vector function_rounding(const ComplexMatrix& Lambda) {
   constexpr double roundings = 1e-15;  // relative error of Lambda by rounding
+  return function_rounding(Lambda, roundings * Lambda.norm());
+}
+
+Vector function_rounding(const ComplexMatrix& Lambda, double error) {
   const Eigen::Index k = Lambda.rows();
-  const double size = roundings * Lambda.norm();
-  Vector rounding = Vector::Constant(k <= 2 ? k : k * k, size);
+  Vector rounding = Vector::Constant(k <= 2 ? k : k * k, error);
   if (k == 2) rounding[1] *= (Lambda - 0.5 * Lambda.trace() * ComplexMatrix::Identity(2, 2)).norm();
   return rounding;
 }

@@ -233,14 +233,16 @@ void ModalBasis::solve(const PairSet& pairs, const ComplexMatrix& R, const Compl
   }
 }
 
-double ModalBasis::sensitivity(const PairSet::Place& place) const {
-  double square = 0.0;
+PairSensitivity ModalBasis::sensitivity(const PairSet::Place& place, const Vector& terms) const {
+  PairSensitivity squares;
   for (Eigen::Index i = 0; i < place.size; ++i) {
-    const Eigen::Index row = real_row_[static_cast<std::size_t>(place.first + i)];
-    square += place.is_real ? left_.row(row).squaredNorm()
-                            : 0.25 * (left_.row(row).squaredNorm() + left_.row(row + 1).squaredNorm());
+    const Eigen::Index first = real_row_[static_cast<std::size_t>(place.first + i)];
+    Vector row = left_.row(first).cwiseAbs();
+    if (!place.is_real) row = 0.5 * (row.cwiseAbs2() + left_.row(first + 1).transpose().cwiseAbs2()).cwiseSqrt();
+    squares.to_residual += row.squaredNorm();
+    squares.to_terms += std::pow(row.dot(terms), 2);
   }
-  return std::sqrt(square);
+  return {std::sqrt(squares.to_residual), std::sqrt(squares.to_terms)};
 }
 
 }  // namespace eigentrail

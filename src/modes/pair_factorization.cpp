@@ -302,23 +302,27 @@ void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
   from_schur_form(columns, B);
 }
 
-double PairFactorization::sensitivity() const {
+PairSensitivity PairFactorization::sensitivity(const Vector& terms) const {
+  PairSensitivity squares;
+  // `row` gives an entry of dLambda from R.
+  const auto add = [&](const ComplexVector& row) {
+    squares.to_residual += row.squaredNorm();
+    squares.to_terms += std::pow(row.cwiseAbs().dot(terms), 2);
+  };
   if (real_) {
     ComplexVector y = ComplexVector::Unit(real_->lu.size(), real_->lu.size() - 1);
     real_->lu.solve_adjoint_in_place(y);
-    return slope_scale_ * y.head(y.size() - 1).norm();
+    add(y.head(y.size() - 1));
   }
   const auto k = static_cast<Eigen::Index>(columns_.size());
-  const Eigen::Index n = columns_.front().size() - k;
-  double square = 0.0;
   for (const BorderedLu& lu : columns_) {
     for (Eigen::Index i = 0; i < k; ++i) {
-      ComplexVector y = ComplexVector::Unit(n + k, n + i);
+      ComplexVector y = ComplexVector::Unit(lu.size(), lu.size() - k + i);
       lu.solve_adjoint_in_place(y);
-      square += y.head(n).squaredNorm();
+      add(y.head(lu.size() - k));
     }
   }
-  return slope_scale_ * std::sqrt(square);
+  return {slope_scale_ * std::sqrt(squares.to_residual), slope_scale_ * std::sqrt(squares.to_terms)};
 }
 
 }  // namespace eigentrail

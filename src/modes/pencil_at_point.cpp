@@ -123,6 +123,18 @@ ComplexMatrix PencilAtPoint::residual(const ComplexMatrix& Z, const ComplexMatri
   return slope.lazyProduct(Lambda) + multiply(K, Z);
 }
 
+Vector PencilAtPoint::terms(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const {
+  const auto magnitudes = [](const Matrix& B, const std::shared_ptr<const Matrix>& band, const Matrix& X) {
+    const ComplexMatrix columns = X.cast<Complex>();
+    return Matrix((band ? band_product(band->cwiseAbs(), columns) : multiply(Matrix(B.cwiseAbs()), columns)).real());
+  };
+  const Matrix values = Z.cwiseAbs();
+  const Matrix once = values.lazyProduct(Lambda.cwiseAbs());
+  Matrix sum = magnitudes(K, bands.K, values) + magnitudes(M, bands.M, once.lazyProduct(Lambda.cwiseAbs()));
+  if (!is_undamped()) sum += magnitudes(C, bands.C, once);
+  return sum.rowwise().norm();
+}
+
 double PencilAtPoint::magnitude(double mu) const {
   return (mu * norm_M + norm_C) * mu + norm_K;
 }

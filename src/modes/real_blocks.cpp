@@ -134,18 +134,22 @@ PairSeries pair_series(Root root, const RealSeries& modes, const ComplexMatrix& 
           multiply_series(size, multiply_series(pair.Lambda, T, count), count)};
 }
 
-double sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W) {
+PairSensitivity sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W,
+                            const Vector& terms) {
+  const auto of_rows = [&](const ComplexMatrix& rows) {
+    return PairSensitivity{rows.norm(), (rows.cwiseAbs() * terms).norm()};
+  };
   if (W.cols() == 1) {
-    const double length = std::abs(W.col(0).head(X.rows()).dot(X.col(0)));
-    return 0.5 * length * X.norm() / std::sqrt(std::abs(lambda[0]));
+    const Complex length = W.col(0).head(X.rows()).dot(X.col(0));
+    return of_rows(0.5 * length / std::sqrt(std::abs(lambda[0])) * X.transpose());
   }
   const PairSeries pair = modal_pair(root, {{X}, {Matrix(lambda.asDiagonal())}});
   const ComplexMatrix size = normalization(pair, W)[0];
   // Modal coordinates of [0; M^-1 R]: X^T R for a mode with both roots (the velocity part), X^T R / (2 s) for
   // a single root.
-  if (root == Root::both) return (size.rightCols(X.cols()) * X.transpose()).norm();
+  if (root == Root::both) return of_rows(size.rightCols(X.cols()) * X.transpose());
   const Vector share = 0.5 * (lambda).cwiseAbs().cwiseSqrt().cwiseInverse();
-  return (size * share.asDiagonal() * X.transpose()).norm();
+  return of_rows(size * share.asDiagonal() * X.transpose());
 }
 
 }  // namespace eigentrail

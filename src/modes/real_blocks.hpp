@@ -24,8 +24,9 @@ std::optional<Matrix> real_basis(const ComplexMatrix& Z, Eigen::Index k);
 /// Power series of the pair of a block, normalized by W0^H Z + W1^H Z Lambda = I.
 PairSeries pair_series(Root root, const RealSeries& modes, const ComplexMatrix& W);
 
-/// Bound of |dLambda| / |R| for that pair, as PairFactorization::sensitivity: the norm of its rows of the
-/// inverse of the modal basis in state space. X (n x k) is M-orthonormal.
-double sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W);
+/// Sensitivity of that pair, as PairFactorization::sensitivity, by its rows of the inverse of the modal basis
+/// in state space. X (n x k) is M-orthonormal.
+PairSensitivity sensitivity(Root root, const Matrix& X, const Vector& lambda, const ComplexMatrix& W,
+                            const Vector& terms);
 
 }  // namespace eigentrail

@@ -147,7 +147,36 @@ Homogeneous by_qr(const Eigen::PartialPivLU<Matrix>& M, const Matrix& C, const M
   return all;
 }
 
+/// Eigenvalues only, without damping: mu = +-sqrt(-lambda) with the eigenvalues lambda of K z = lambda M z. Those
+/// on the axes are exactly there.
+Homogeneous by_squares(const Matrix& M, const Matrix& K) {
+  const Eigen::Index n = M.rows();
+  Matrix a = K, b = M;
+  Vector real(n), imag(n), beta(n);
+  const auto size = static_cast<lapack_int>(n);
+  Homogeneous all(2 * n);
+  all.converged = LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, b.data(), size, real.data(),
+                                imag.data(), beta.data(), nullptr, 1, nullptr, 1) == 0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Complex alpha(real[j], imag[j]);
+    const bool is_infinite = std::abs(beta[j]) <= infinite * std::abs(alpha);
+    // Real numbers by themselves: those with a zero imaginary part have no sign of it that could be lost.
+    const Complex mu = is_infinite             ? Complex(1.0)
+                       : imag[j] != 0.0        ? std::sqrt(-alpha / beta[j])
+                       : real[j] / beta[j] > 0 ? Complex(0.0, std::sqrt(real[j] / beta[j]))
+                                               : Complex(std::sqrt(-real[j] / beta[j]));
+    for (const Eigen::Index at : {2 * j, 2 * j + 1}) {
+      const double sign = at == 2 * j ? 1.0 : -1.0;
+      all.alpha_real[at] = sign * mu.real();
+      all.alpha_imag[at] = sign * mu.imag();
+      all.beta[at] = is_infinite ? 0.0 : 1.0;
+    }
+  }
+  return all;
+}
+
 Homogeneous eigenvalues_of(const Matrix& M, const Matrix& C, const Matrix& K) {
+  if (C.isZero(0.0)) return by_squares(M, K);
   const Eigen::PartialPivLU<Matrix> lu(M);
   return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, C, K) : by_qz(M, C, K, false);
 }

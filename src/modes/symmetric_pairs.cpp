@@ -234,7 +234,8 @@ InvariantPair pair_of(const PencilAtPoint& pencil, const SymmetricPairs::Pair& o
   const double scale = pencil.magnitude(size) * pair.Z.norm();
   // Z = X T with a matrix T, so the residual of the pair scales with |Z| / |X|.
   pair.backward_error = scale > 0.0 ? pair.Z.norm() * R.norm() / X.norm() / scale : 0.0;
-  pair.condition = sensitivity(of.root, X, lambda, of.W) * scale / std::max(size, reference);
+  settle_accuracy(sensitivity(of.root, X, lambda, of.W, pencil.terms(pair.Z, pair.Lambda)), scale,
+                  std::max(size, reference), pair);
   return pair;
 }
 

@@ -99,6 +99,7 @@ Json ranges_data(const LociFile& loci) {
   Json list = Json::array();
   for (const StableRange& range : *loci.ranges) {
     list.push_back({{"kind", stability_name(range.kind)},
+                    {"whole", range.whole},
                     {"from", end_data(range.from)},
                     {"to", end_data(range.to)},
                     {"least_margin", range.least_margin},

@@ -8,7 +8,7 @@
 
 #include "eigentrail/continuation/eigenvalue_error.hpp"
 #include "eigentrail/stability/permanent_modes.hpp"
-#include "stability/zero_level.hpp"
+#include "stability/infinite_size.hpp"
 
 namespace eigentrail {
 namespace {
@@ -41,17 +41,20 @@ double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
 }
 
-/// Error bounds of the eigenvalues of a block at t on a step of this length, 1/s, in the order of the block's
-/// modes. `s`: the eigenvalues of all modes at t. `exact`: t is a stored point.
-Vector uncertainty(const DenseBlock& block, double length, double t, const ComplexVector& s, bool exact,
-                   const EigenvalueAccuracy& accuracy) {
-  const double level = exact ? vanishing_damping : accuracy.tolerance;
+/// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of the
+/// dense output, at a stored point those by rounding. `s`: the eigenvalues of all modes there.
+Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const PathPosition& at,
+                   const ComplexVector& s, const EigenvalueAccuracy& accuracy) {
   Vector doubts(static_cast<Eigen::Index>(block.modes.size()));
-  for (Eigen::Index i = 0; i < doubts.size(); ++i)
-    doubts[i] = level * scale_of(s[block.modes[static_cast<std::size_t>(i)]], accuracy);
-  if (block.size() == 1) return doubts;
-  const Vector errors = block_errors(block, length, t, s, exact, accuracy.tolerance, accuracy.reference);
-  for (Eigen::Index i = 0; i < doubts.size(); ++i) doubts[i] = std::max(exact ? doubts[i] : 0.0, errors[i]);
+  const bool exact = at.t == 0.0 || at.t == 1.0;
+  if (!exact && block.size() > 1)
+    return block_errors(block, path.steps[at.step].length, at.t, s, false, accuracy.tolerance,
+                        accuracy.reference);
+  for (Eigen::Index i = 0; i < doubts.size(); ++i) {
+    const int mode = block.modes[static_cast<std::size_t>(i)];
+    doubts[i] = exact ? path.rounding_at(at.step + (at.t == 1.0 ? 1 : 0), mode)
+                      : accuracy.tolerance * scale_of(s[mode], accuracy);
+  }
   return doubts;
 }
 
@@ -61,18 +64,15 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Judgin
   result.exact = at.t == 0.0 || at.t == 1.0;
   result.all_decay = true;
   const ComplexVector s = path.eigenvalues_at(at);
-  const double zero = zero_of_blocks(s, judging.accuracy.reference);
   double fastest = -INFINITY;
-  const PathStep& step = path.steps[at.step];
-  for (const DenseBlock& block : step.blocks) {
-    const Vector doubts = uncertainty(block, step.length, at.t, s, result.exact, judging.accuracy);
+  for (const DenseBlock& block : path.steps[at.step].blocks) {
+    const Vector doubts = uncertainty(path, block, at, s, judging.accuracy);
     for (std::size_t i = 0; i < block.modes.size(); ++i) {
       const int mode = block.modes[i];
       if (judging.left_out[static_cast<std::size_t>(mode)]) continue;
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
-      const bool vanishes = block.size() > 1 && std::abs(s[mode]) <= zero;
-      const double doubt = vanishes ? zero : doubts[static_cast<Eigen::Index>(i)];
+      const double doubt = doubts[static_cast<Eigen::Index>(i)];
       if (growth > doubt) result.unstable.push_back(mode);
       result.all_decay = result.all_decay && growth < -doubt;
       if (growth > fastest) result.critical = mode;
@@ -330,6 +330,17 @@ void settle_unseen(std::vector<AxisStretch>& stretches) {
   }
 }
 
+/// Judges a stretch by the growing modes of the whole model that are not followed, at the stored points inside
+/// and next to it.
+void include_unfollowed(const RecordedPath& path, AxisStretch& stretch) {
+  int most = -1;
+  for (std::size_t node = stretch.from.at.step; node <= stretch.to.at.step + 1; ++node) {
+    if (node < path.growing_unfollowed.size()) most = std::max(most, path.growing_unfollowed[node]);
+  }
+  stretch.whole = most == 0;
+  if (most > 0) stretch.stability = Stability::unstable;
+}
+
 }  // namespace
 
 std::string stability_name(Stability stability) {
@@ -361,15 +372,16 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
     add_stretches(path, cuts[i], cuts[i + 1], judging, 0, stretches.size() + most_between_events, stretches);
   settle_unseen(stretches);
+  for (AxisStretch& stretch : stretches) include_unfollowed(path, stretch);
   return stretches;
 }
 
-int count_growing(const AxisStretch& stretch, const PathStep& step, double t, const ComplexVector& s,
-                  const EigenvalueAccuracy& accuracy) {
+int count_growing(const RecordedPath& path, const AxisStretch& stretch, const PathPosition& at,
+                  const ComplexVector& s, const EigenvalueAccuracy& accuracy) {
   if (stretch.stability != Stability::unstable) return 0;
   int count = 0;
-  for (const DenseBlock& block : step.blocks) {
-    const Vector doubts = uncertainty(block, step.length, t, s, false, accuracy);
+  for (const DenseBlock& block : path.steps[at.step].blocks) {
+    const Vector doubts = uncertainty(path, block, at, s, accuracy);
     for (std::size_t i = 0; i < block.modes.size(); ++i) {
       const int mode = block.modes[i];
       const double growth = s[mode].real();

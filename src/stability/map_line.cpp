@@ -102,12 +102,11 @@ const AxisStretch* stretch_at(const LineTrace& line, const PathPosition& at, dou
                                  [&at](const AxisStretch& stretch) { return at <= stretch.to.at; });
   if (here == line.stretches.end()) return nullptr;
   const double near = on_cut * (line.path.highest() - line.path.lowest());
-  const PathStep& step = line.path.steps[at.step];
+  const auto growing = [&](const AxisStretch& stretch) {
+    return count_growing(line.path, stretch, at, s, line.accuracy);
+  };
   const auto fewer = [&](const AxisStretch* best, const AxisStretch& other) {
-    return count_growing(other, step, at.t, s, line.accuracy) <
-                   count_growing(*best, step, at.t, s, line.accuracy)
-               ? &other
-               : best;
+    return growing(other) < growing(*best) ? &other : best;
   };
   const AxisStretch* best = &*here;
   if (here->to.on_axis && std::abs(p - here->to.p) <= near && here + 1 != line.stretches.end())
@@ -129,7 +128,7 @@ void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line
   const ComplexVector s = trace.path.eigenvalues_at(at);
   const AxisStretch* stretch = stretch_at(trace, at, p, s);
   if (stretch == nullptr) return;
-  line.unstable[cell] = count_growing(*stretch, trace.path.steps[at.step], at.t, s, trace.accuracy);
+  line.unstable[cell] = count_growing(trace.path, *stretch, at, s, trace.accuracy);
   line.margin[cell] = margin(s, stretch->stability);
   line.damping_ratio[cell] = least_damping_ratio(s);
   line.marginal_cells += stretch->stability == Stability::marginal ? 1 : 0;

@@ -3,19 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stability/zero_level.hpp"
-
 namespace eigentrail {
 namespace {
 
 constexpr std::size_t enough_points = 3;
-
-const DenseBlock* block_of(const PathStep& step, int mode) {
-  for (const DenseBlock& block : step.blocks) {
-    if (std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end()) return &block;
-  }
-  return nullptr;
-}
 
 Permanence permanence(const RecordedPath& path, int mode, const EigenvalueAccuracy& accuracy) {
   bool exists = false;
@@ -28,11 +19,7 @@ Permanence permanence(const RecordedPath& path, int mode, const EigenvalueAccura
     if (std::isnan(s.real())) continue;
     if (!exists) first = s;
     exists = true;
-    const DenseBlock* block = block_of(path.steps[std::min(node, path.steps.size() - 1)], mode);
-    const bool in_block = block != nullptr && block->size() > 1;
-    const double level = in_block ? zero_of_blocks(path.eigenvalues.row(row).transpose(), accuracy.reference)
-                                  : vanishing_damping * accuracy.reference;
-    is_zero = is_zero && std::abs(s) <= level;
+    is_zero = is_zero && std::abs(s) <= path.rounding_at(node, mode);
     is_constant = is_constant &&
                   std::abs(s - first) <= accuracy.tolerance * std::max(std::abs(first), accuracy.reference);
   }

@@ -35,6 +35,7 @@ RangeEnd range_end(const RecordedPath& path, Stability kind, const AxisCut& cut,
 StableRange join(const RecordedPath& path, const AxisStretch* first, const AxisStretch* last) {
   StableRange range;
   range.kind = first->stability;
+  range.whole = std::all_of(first, last + 1, [](const AxisStretch& stretch) { return stretch.whole; });
   range.from = range_end(path, range.kind, first->from, first->samples.front());
   range.to = range_end(path, range.kind, last->to, last->samples.back());
   if (range.kind == Stability::marginal) {

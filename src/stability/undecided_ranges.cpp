@@ -133,7 +133,7 @@ std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, 
 
   std::vector<StableRange> open;
   for (const Stretch& stretch : undecided_stretches(sampler, samples)) {
-    StableRange range{Stability::undecided, edge(stretch.from), edge(stretch.to), 0.0, 0.0, 0.0};
+    StableRange range{Stability::undecided, edge(stretch.from), edge(stretch.to), 0.0, 0.0, 0.0, true};
     if (stretch.from.place == 0.0) range.from.cause = "start";
     if (stretch.to.place == static_cast<double>(path.steps.size())) range.to.cause = "end";
     const bool marginal = std::any_of(ranges.begin(), ranges.end(), [&](const StableRange& other) {

@@ -72,6 +72,16 @@ void read_points(const Hdf5File& file, LociFile& loci) {
   const std::vector<Complex> data = file.read_complex("eigenvalue");
   loci.eigenvalues = Eigen::Map<const RowMajorComplex>(data.data(), static_cast<Eigen::Index>(loci.p.size()),
                                                        static_cast<Eigen::Index>(loci.modes.size()));
+  if (file.has("rounding")) {
+    require(file.shape("rounding") == Shape{loci.p.size(), loci.modes.size()}, loci, "rounding");
+    loci.rounding = Eigen::Map<const RowMajorReal>(file.read_real("rounding").data(), loci.eigenvalues.rows(),
+                                               loci.eigenvalues.cols());
+  }
+  if (file.has("growing_unfollowed")) {
+    for (const std::int64_t number : file.read_integers("growing_unfollowed"))
+      loci.growing_unfollowed.push_back(static_cast<int>(number));
+    require(loci.growing_unfollowed.size() == loci.p.size(), loci, "growing_unfollowed");
+  }
 }
 
 /// The datasets of the dense output as flat row-major arrays.

@@ -10,7 +10,7 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 45> loci_names = {"node",
+const std::array<std::string, 47> loci_names = {"node",
                                                 "step",
                                                 "mode",
                                                 "function",
@@ -33,6 +33,8 @@ const std::array<std::string, 45> loci_names = {"node",
                                                 "whirl_reverse",
                                                 "residual",
                                                 "condition",
+                                                "rounding",
+                                                "growing_unfollowed",
                                                 "equilibrium",
                                                 "multiplier",
                                                 "step_length",
@@ -96,6 +98,16 @@ void add_points(std::vector<GrowingDataset>& list, const Model& model, const std
                   {"node", "mode"},
                   "1",
                   "relative condition number of the eigenvalue, or of its block"});
+  list.push_back({"rounding",
+                  ElementType::real,
+                  {"node", "mode"},
+                  "1/s",
+                  "error of the eigenvalue by rounding of the entries of the matrices"});
+  list.push_back({"growing_unfollowed",
+                  ElementType::integer,
+                  {"node"},
+                  "1",
+                  "number of growing modes that are not followed; -1: not known"});
   list.push_back({"equilibrium",
                   ElementType::real,
                   {"node", "coordinate"},

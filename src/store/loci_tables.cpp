@@ -139,6 +139,8 @@ void LociTables::append(const LociRows& rows) {
   file_.write_rows("mode_shape", points_, rows.mode_shape);
   file_.write_rows("residual", points_, rows.residual);
   file_.write_rows("condition", points_, rows.condition);
+  file_.write_rows("rounding", points_, rows.rounding);
+  file_.write_rows("growing_unfollowed", points_, rows.growing_unfollowed);
   if (!rows.whirl.empty()) {
     file_.write_rows("whirl", points_, rows.whirl);
     file_.write_rows("whirl_reverse", points_, rows.whirl_reverse);

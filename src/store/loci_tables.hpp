@@ -10,14 +10,14 @@ namespace eigentrail {
 
 /// Points and steps that are not written yet; every member is a flat row-major array of one dataset.
 struct LociRows {
-  std::vector<double> parameter, frequency, damped_frequency, damping_ratio, residual, condition, equilibrium,
-      multiplier;
+  std::vector<double> parameter, frequency, damped_frequency, damping_ratio, residual, condition, rounding,
+      equilibrium, multiplier;
   std::vector<double> whirl, whirl_reverse;  ///< only of models in which something spins
   std::vector<Complex> eigenvalue, eigenvalue_derivative, mode_shape;
   std::vector<double> step_length, step_parameter;
   std::vector<std::vector<double>> trimmed, step_trimmed;  ///< per trimmed parameter
   std::vector<Complex> dense_output;
-  std::vector<std::int64_t> dense_block, dense_chart, mode_block, certified;
+  std::vector<std::int64_t> dense_block, dense_chart, mode_block, certified, growing_unfollowed;
 
   std::size_t points() const { return parameter.size(); }
   std::size_t steps() const { return step_length.size(); }

@@ -173,7 +173,7 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
   rows.eigenvalue.resize(begin + tables.modes(), Complex(nan, nan));
   rows.eigenvalue_derivative.resize(begin + tables.modes(), Complex(nan, nan));
   for (auto* column :
-       {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual, &rows.condition})
+       {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual, &rows.condition, &rows.rounding})
     column->resize(begin + tables.modes(), nan);
   rows.mode_shape.resize((begin + tables.modes()) * coordinates, Complex(nan, nan));
   const bool spins = has_whirl(model.description());
@@ -198,6 +198,7 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
     rows.damping_ratio[at] = std::isfinite(size) ? -state.s.real() / size + 0.0 : 0.0;
     rows.residual[at] = state.backward_error;
     rows.condition[at] = state.condition;
+    rows.rounding[at] = state.rounding;
     ComplexVector& shape = last_shapes[mode];
     shape = normalize_shape(state.shape, mass, shape);
     std::copy(shape.begin(), shape.end(),
@@ -268,6 +269,7 @@ void LociWriter::append(const TracePoint& point) {
   }
   LociRows& rows = self.rows;
   rows.parameter.push_back(point.node.p);
+  rows.growing_unfollowed.push_back(point.growing_unfollowed);
   const auto x = point.node.path.x.col(0);
   const auto lambda = point.node.path.lambda.col(0);
   rows.equilibrium.insert(rows.equilibrium.end(), x.begin(), x.end());

@@ -16,11 +16,14 @@ struct RangeDataset {
 
 constexpr const char* parameter_unit = "";  ///< stands for the unit of the traced parameter
 
-constexpr std::array<RangeDataset, 9> datasets{{
+/// Files of version 0.1 are without this one; their ranges are those of the followed modes.
+constexpr const char* whole_model = "stable_whole";
+
+constexpr std::array<RangeDataset, 10> datasets{{
     {"stable_from", ElementType::real, false, parameter_unit, "where the range begins, as the trace goes"},
     {"stable_to", ElementType::real, false, parameter_unit, "where the range ends, as the trace goes"},
     {"stable_kind", ElementType::text, false, "1",
-     "stable: all followed modes decay; marginal: none grows, some stay on the imaginary axis; undecided: "
+     "stable: all modes decay; marginal: none grows, some stay on the imaginary axis; undecided: "
      "errors of the data leave it open"},
     {"stable_cause", ElementType::text, true, "1",
      "what ends the range: an event, start or end of the trace, infinity, or sign change"},
@@ -30,6 +33,8 @@ constexpr std::array<RangeDataset, 9> datasets{{
     {"stable_least_margin", ElementType::real, false, "1/s", "least margin of the range"},
     {"stable_largest_margin", ElementType::real, false, "1/s", "largest margin of the range"},
     {"stable_largest_at", ElementType::real, false, parameter_unit, "where the margin is largest"},
+    {whole_model, ElementType::integer, false, "1",
+     "1: no mode of the whole model grows; 0: no followed mode grows, others are not known"},
 }};
 
 void create(Hdf5File& file, const std::string& unit) {
@@ -72,7 +77,7 @@ void write_stable_ranges(Hdf5File& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges) {
   create(file, file.text_attribute(parameter, "units"));
   if (ranges.empty()) return;
-  std::vector<std::int64_t> numbers, modes;
+  std::vector<std::int64_t> numbers, modes, whole;
   std::vector<double> from, to, margins, least, largest, largest_at;
   std::vector<std::string> kinds, causes;
   for (const StableRange& range : ranges) {
@@ -88,6 +93,7 @@ void write_stable_ranges(Hdf5File& file, const std::string& parameter,
     least.push_back(range.least_margin);
     largest.push_back(range.largest_margin);
     largest_at.push_back(range.largest_at);
+    whole.push_back(range.whole ? 1 : 0);
   }
   file.write_rows("range", 0, numbers);
   file.write_rows("stable_from", 0, from);
@@ -99,6 +105,7 @@ void write_stable_ranges(Hdf5File& file, const std::string& parameter,
   file.write_rows("stable_least_margin", 0, least);
   file.write_rows("stable_largest_margin", 0, largest);
   file.write_rows("stable_largest_at", 0, largest_at);
+  file.write_rows(whole_model, 0, whole);
 }
 
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes) {
@@ -106,6 +113,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   const Shape shape = file.shape("range");
   const std::uint64_t count = shape.empty() ? 0 : shape[0];
   for (const RangeDataset& dataset : datasets) {
+    if (dataset.name == whole_model && !file.has(whole_model)) continue;
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
     if (file.shape(dataset.name) != expected)
       throw Hdf5Error(std::string(dataset.name) + " does not fit the other datasets");
@@ -123,6 +131,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   const auto least = file.read_real("stable_least_margin");
   const auto largest = file.read_real("stable_largest_margin");
   const auto largest_at = file.read_real("stable_largest_at");
+  const auto whole = file.has(whole_model) ? file.read_integers(whole_model) : std::vector<std::int64_t>(count);
   std::vector<StableRange> ranges;
   for (std::size_t i = 0; i < count; ++i) {
     const auto end = [&](double p, std::size_t at) {
@@ -130,7 +139,8 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
       return RangeEnd{p, causes[at], margins[at], mode};
     };
     ranges.push_back(
-        {kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i], largest_at[i]});
+        {kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i], largest_at[i],
+         whole[i] == 1});
   }
   return ranges;
 }

@@ -27,13 +27,15 @@ def events(loci: Any) -> pandas.DataFrame:
 
 
 def stable_ranges(loci: Any) -> pandas.DataFrame:
-    """One row per range without growing modes, in the order of the trace."""
+    """One row per range without growing modes, in the order of the trace. Where `whole_model` is False it holds for the
+    followed modes only."""
     table = {"kind": loci.stable_kind.values, "from": loci.stable_from.values, "to": loci.stable_to.values}
     for end, name in (("left", "from"), ("right", "to")):
         for what in ("cause", "margin", "mode"):
             table[f"{what}_{name}"] = loci[f"stable_{what}"].sel(end=end).values
     for name in ("least_margin", "largest_margin", "largest_at"):
         table[name] = loci[f"stable_{name}"].values
+    table["whole_model"] = loci.stable_whole.values == 1 if "stable_whole" in loci else False
     return pandas.DataFrame(table, index=pandas.Index(loci.range.values, name="range"))
 
 

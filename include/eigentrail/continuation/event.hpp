@@ -39,8 +39,8 @@ struct Event {
   /// Collision of m eigenvalues: s = s* + puiseux (p - p*)^(1/m) + ..., with all m branches of the root; zero
   /// if not known.
   Complex puiseux = {};
-  /// Flutter, divergence, damping_ratio, log_decrement: 1 if the mode becomes less stable there with growing
-  /// p, -1 if more stable. Resonance: 1 if Im s grows faster with p than the multiple of the excitation
+  /// Flutter, divergence, damping_ratio, log_decrement, and a collision on the imaginary axis: 1 if the mode
+  /// becomes less stable there with growing p, -1 if more stable. Resonance: 1 if Im s grows faster with p than the multiple of the excitation
   /// frequency; band_edge: if it grows with p. Extremum: 1 at a minimum of the damping ratio, -1 at a
   /// maximum. 0: the function touches zero without a change of sign, or the kind has no direction.
   int direction = 0;

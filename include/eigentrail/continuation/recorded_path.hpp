@@ -20,8 +20,14 @@ struct RecordedPath {
   std::vector<double> p;        ///< per node; monotonic unless the path turns back at a fold
   ComplexMatrix eigenvalues;    ///< s, one row per node, one column per mode; NaN where a mode does not exist
   std::vector<PathStep> steps;  ///< between neighbouring nodes
+  /// Errors of `eigenvalues` by rounding of the entries of the matrices, 1/s; empty if they are not known.
+  Matrix rounding = {};
+  /// Per node: number of growing modes that are not followed; -1 where it is not known. Empty: nowhere.
+  std::vector<int> growing_unfollowed = {};
 
   std::size_t n_nodes() const { return p.size(); }
+  /// The error of an eigenvalue at a node by rounding, 1/s; zero if it is not known.
+  double rounding_at(std::size_t node, int mode) const;
   double lowest() const;   ///< least parameter value of all nodes; NaN without nodes
   double highest() const;  ///< largest parameter value of all nodes; NaN without nodes
 
@@ -57,6 +63,8 @@ class PathRecorder {
  private:
   std::vector<double> p_;
   std::vector<std::vector<Complex>> eigenvalues_;  ///< per node, by mode
+  std::vector<std::vector<double>> rounding_;
+  std::vector<int> growing_unfollowed_;
   std::vector<PathStep> steps_;
   std::size_t n_modes_ = 0;
 };

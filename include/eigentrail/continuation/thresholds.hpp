@@ -6,17 +6,16 @@
 
 namespace eigentrail {
 
+/// What counts as zero.
+struct RoundingThresholds {
+  /// Errors of the entries of M, C and K, in units of 2.2e-16 of their magnitudes: they are sums of products of
+  /// numbers with errors of their own. An eigenvalue, its real part, or a function of a block is zero where it
+  /// is below the error that follows (InvariantPair::rounding).
+  double entries = 10.0;
+};
+
 /// Zeros and extrema of functions of single eigenvalues (events/criterion.hpp).
 struct CriterionThresholds {
-  /// |Re s| / max(|s|, reference) up to this counts as zero at most; the same for the functions of the other
-  /// events. In systems without damping Re s is zero except for rounding times the condition of the
-  /// eigenvalue, which is bounded from above by its condition number in the 2-norm.
-  double on_axis = 1e-9;
-  /// In units of 2.2e-16 times that condition number: a smaller |Re s| / max(|s|, reference) counts as zero.
-  double roundings = 1000.0;
-  /// |Re s| / reference up to this counts as zero at a double eigenvalue, which is known only to the square
-  /// root of the accuracy of a simple one.
-  double double_root_on_axis = 1e-6;
   /// In units of tolerance times max(|s|, reference). Where a function has an extremum this close to zero,
   /// two zeros may lie between two samples of a step. The extremum is then located.
   double near_axis = 10.0;
@@ -95,6 +94,7 @@ struct IdentityThresholds {
 
 /// All thresholds.
 struct Thresholds {
+  RoundingThresholds rounding = {};
   CriterionThresholds criterion = {};
   MeetingThresholds meeting = {};
   VeeringThresholds veering = {};
@@ -105,9 +105,7 @@ struct Thresholds {
   /// Calls visit(name, member) for every threshold.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    visit("criterion.on_axis", self.criterion.on_axis);
-    visit("criterion.roundings", self.criterion.roundings);
-    visit("criterion.double_root_on_axis", self.criterion.double_root_on_axis);
+    visit("rounding.entries", self.rounding.entries);
     visit("criterion.near_axis", self.criterion.near_axis);
     visit("criterion.extremum", self.criterion.extremum);
     visit("meeting.at_point", self.meeting.at_point);

@@ -80,6 +80,7 @@ struct ModeState {
   Complex slope;        ///< ds/dp; NaN where eigenvalues coincide, infinite at a fold
   ComplexVector shape;  ///< physical coordinates
   double backward_error = 0.0, condition = 0.0;
+  double rounding = 0.0;  ///< error of s by rounding of the entries of the matrices, 1/s
 };
 
 /// A point of the trace with the step that led to it.
@@ -87,6 +88,7 @@ struct TracePoint {
   const PathNode& node;
   std::vector<ModeState> modes;    ///< all modes that exist at the point
   const PathStep* step = nullptr;  ///< from the point before; null at the first point
+  int growing_unfollowed = -1;     ///< number of growing modes that are not followed; -1: not known
 };
 
 }  // namespace eigentrail

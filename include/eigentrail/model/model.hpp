@@ -60,6 +60,12 @@ struct Structure {
   bool constant_constraints = false;  ///< A is constant: the tangent basis is kept
   bool fixed_equilibrium = false;     ///< x0 and lambda0 do not change: KINSOL is called once at most
   bool known_equilibrium = false;     ///< the initial guess is the equilibrium: KINSOL is never called
+
+  /// Whether with s also -conj(s) is an eigenvalue: without damping, if there are no gyroscopic terms or the
+  /// system is Hamiltonian.
+  bool reflects_spectrum() const {
+    return !damped && (!gyroscopic || (symmetric_mass && !circulatory));
+  }
 };
 
 /// How the blades of a rotor move together, in multiblade coordinates: as functions of the azimuth psi of a

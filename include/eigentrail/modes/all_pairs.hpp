@@ -63,8 +63,8 @@ class ModalBasis {
   void solve(const PairSet& pairs, const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
              ComplexMatrix& dLambda) const;
 
-  /// Bound of |dLambda| / |R| for one pair, as PairFactorization::sensitivity.
-  double sensitivity(const PairSet::Place& place) const;
+  /// Of one pair, as PairFactorization::sensitivity.
+  PairSensitivity sensitivity(const PairSet::Place& place, const Vector& terms) const;
 
   /// Estimate of the relative error by rounding in a solution.
   double rounding() const { return rounding_; }

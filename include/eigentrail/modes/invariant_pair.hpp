@@ -78,6 +78,12 @@ class BorderedLu {
   std::optional<ComplexLu> lu_;                 ///< empty where it is
 };
 
+/// How much Lambda of a pair changes, as bounds of |dLambda| in the Frobenius norm.
+struct PairSensitivity {
+  double to_residual = 0.0;  ///< by a residual R: |dLambda| / |R|
+  double to_terms = 0.0;     ///< by a residual whose rows are at most as large as the entries of given terms
+};
+
 /// LU factors of the linearized equations at an invariant pair.
 class PairFactorization {
  public:
@@ -98,8 +104,8 @@ class PairFactorization {
   void solve_in_place(ComplexMatrix& B) const;
   void solve_adjoint_in_place(ComplexMatrix& B) const;
 
-  /// Bound of |dLambda| / |R|: how much a residual changes the block as a whole.
-  double sensitivity() const;
+  /// Of the block as a whole. `terms`: n numbers, >= 0.
+  PairSensitivity sensitivity(const Vector& terms) const;
 
  private:
   /// Data that couple the columns of a block of several modes: Lambda = U T U^H, T2 = T^2, Z U and W1 U.
@@ -150,6 +156,9 @@ struct InvariantPair {
   ComplexMatrix W;       ///< 2n x k, normalization
   double backward_error = 0.0;  ///< |residual| / (magnitude |Z|), see PencilAtPoint::magnitude
   double condition = 0.0;  ///< relative condition number of the block, with respect to max(|mu|, reference)
+  /// Bound of the change of Lambda where every entry of the matrices changes by a rounding error of 2.2e-16 of
+  /// its magnitude: eps |y|^T (|mu|^2 |M| + |mu| |C| + |K|) |z| / |y^H P' z| for one mode.
+  double rounding = 0.0;
   std::shared_ptr<const PairFactorization> factors;  ///< null if the pair was not corrected by itself
 
   Eigen::Index size() const { return Lambda.rows(); }
@@ -168,6 +177,10 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 /// in the reciprocal chart) counts as zero. Of `start` only Z, Lambda, chart and is_real are used.
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts);
+
+/// Sets condition and rounding of a pair. `scale`: of its residual, |residual| / backward_error; `size`: that of
+/// its eigenvalues, at least the reference.
+void settle_accuracy(const PairSensitivity& sensitivity, double scale, double size, InvariantPair& pair);
 
 /// The factors of the pair, or new factors at the pair if it has none.
 std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair);

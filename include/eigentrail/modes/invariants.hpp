@@ -29,6 +29,8 @@ ComplexVector block_roots(const ComplexVector& functions);
 /// If a block is defective, the error of delta determines the accuracy: the eigenvalues are known only to its
 /// square root.
 Vector function_rounding(const ComplexMatrix& Lambda);
+/// The same for an error of Lambda of this size (Frobenius norm).
+Vector function_rounding(const ComplexMatrix& Lambda, double error);
 
 /// Estimate of the largest error of an eigenvalue for given errors of the functions, 1/s. Near a meeting of
 /// eigenvalues a distance smaller than `least_gap` is replaced by `least_gap`.

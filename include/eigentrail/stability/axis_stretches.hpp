@@ -52,6 +52,9 @@ struct AxisStretch {
   /// False if at no sample the real parts exceed the error of the dense output, as on very short stretches.
   /// The stability then follows from a neighbouring stretch if possible, and is marginal otherwise.
   bool seen = true;
+  /// Whether no mode grows that is not followed, by the stored points inside and next to it. Where some grow the
+  /// stretch is unstable.
+  bool whole = false;
   /// Samples inside, in the order of the trace, and at those ends that are not on the axis; at least one.
   std::vector<AxisSample> samples = {};
 
@@ -71,10 +74,10 @@ struct EigenvalueAccuracy {
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy);
 
-/// Number of growing modes at t in [0, 1] on `step`, a place of the stretch with the eigenvalues `s`. A mode
+/// Number of growing modes at a place of the stretch with the eigenvalues `s`. A mode
 /// grows if Re s > 0. Where |Re s| is within the error of the dense output, a mode counts as growing if it
 /// grows at a sample of the stretch. The result is 0 if the stretch is not unstable, and at least 1 if it is.
-int count_growing(const AxisStretch& stretch, const PathStep& step, double t, const ComplexVector& s,
-                  const EigenvalueAccuracy& accuracy);
+int count_growing(const RecordedPath& path, const AxisStretch& stretch, const PathPosition& at,
+                  const ComplexVector& s, const EigenvalueAccuracy& accuracy);
 
 }  // namespace eigentrail

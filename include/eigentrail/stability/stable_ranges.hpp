@@ -24,10 +24,11 @@ struct StableRange {
   double least_margin = 0.0;    ///< of the margins at the ends and the samples (AxisStretch), 1/s
   double largest_margin = 0.0;  ///< of the same margins, 1/s
   double largest_at = 0.0;      ///< parameter value with the largest margin
+  /// Whether it holds for the whole model; otherwise for the followed modes, and others may grow.
+  bool whole = false;
 };
 
-/// Stable and marginal ranges from the first point of the path to the last. They refer to the followed modes
-/// only. `events`: all events of the trace, in any order.
+/// Stable and marginal ranges from the first point of the path to the last. `events`: all events of the trace, in any order.
 std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
                                        const EigenvalueAccuracy& accuracy);
 

@@ -57,7 +57,7 @@ class TrackScan {
       : search_(search),
         step_(step),
         index_(track),
-        on_step_(step, track, excitation),
+        on_step_(step, track, excitation, search.thresholds().rounding),
         histories_(histories),
         found_(found) {}
 
@@ -137,12 +137,11 @@ class TrackScan {
     const double size = std::max(std::abs(s), search_.problem().reference(track().pair.chart));
     const double value = on_step_.value(criterion, s, at.t);
     // The sign of a value this small, as of Re s of an undamped mode, is rounding.
-    const double on_axis = axis_width(search_.thresholds().criterion, track()) * size;
-    const auto is_rounding = [&] {
-      return std::abs(value) <= on_axis ||
-             (!at.of_mean && std::abs(value) <= on_step_.rounding(member, at.t));
+    const auto rounding = [&] {
+      return at.of_mean ? search_.thresholds().rounding.entries * track().pair.rounding
+                        : on_step_.rounding(member, at.t);
     };
-    if (!criterion.asks_for_extrema() && is_rounding()) {
+    if (!criterion.asks_for_extrema() && std::abs(value) <= rounding()) {
       history.skip();
       return;
     }

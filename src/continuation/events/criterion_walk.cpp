@@ -37,8 +37,6 @@ constexpr double on_real_axis = 1e-6;
 /// five, and relative size of the last one, at the level of rounding.
 constexpr int most_corrections = 20;
 constexpr double last_correction = 1e-15;
-/// Safety factor on the estimated rounding error of a block's eigenvalues.
-constexpr double criterion_rounding_margin = 10.0;
 
 /// Whether a zero can be located as that of a product of two eigenvalues of a block.
 bool has_product(const CriterionTarget& target, const Track& track) {
@@ -82,10 +80,13 @@ int sign_of(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
-int nearest_member(const Track& track, Complex root) {
+/// `own`: the member that is meant where several are as near.
+int nearest_member(const Track& track, Complex root, std::size_t own) {
+  const Vector distances = (track.roots.array() - root).abs();
   Eigen::Index nearest = 0;
-  (track.roots.array() - root).abs().minCoeff(&nearest);
-  return static_cast<int>(nearest);
+  const double least = distances.minCoeff(&nearest);
+  const auto index = static_cast<Eigen::Index>(own);
+  return static_cast<int>(index < distances.size() && distances[index] <= least ? index : nearest);
 }
 
 /// Locates one zero or extremum.
@@ -113,6 +114,9 @@ class CriterionWalk {
   double other_factor() const;
   double slope_in(const PathNode& along, const Track& along_q, const std::vector<int>& members) const;
   Chart chart() const { return step_.left->tracks[member_.track].pair.chart; }
+  /// Errors by rounding of the eigenvalue at the last look, and of the mean of its block.
+  double rounding() const;
+  double rounding_of_mean() const;
 
   const EventSearch& search_;
   const Step& step_;
@@ -127,15 +131,22 @@ class CriterionWalk {
   Ending ending_ = Ending::none;
 };
 
+double CriterionWalk::rounding() const {
+  const Track& there = mode_->solved.node.tracks.front();
+  return rounding_of_roots(there, search_.thresholds().rounding)[nearest_member(there, mode_->root, member_.index)];
+}
+
+double CriterionWalk::rounding_of_mean() const {
+  return search_.thresholds().rounding.entries * mode_->solved.node.tracks.front().pair.rounding;
+}
+
 /// Whether the walk has reached a double eigenvalue, and what that means.
 CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
   const bool meets = series.size() < 2 || (!target_.by_product && mode_->gap <= meeting_gap * moved_);
   if (!meets) return Ending::none;
   if (has_product(target_, step_.left->tracks[member_.track])) return Ending::unsettled;
   // A double eigenvalue has no derivatives, so that Newton's method cannot go on.
-  const double near =
-      search_.thresholds().criterion.double_root_on_axis * search_.problem().reference(chart());
-  const bool on_axis = std::abs(mode_->root.real()) <= near;
+  const bool on_axis = std::abs(mode_->root.real()) <= rounding();
   return target_.criterion.kind == EventKind::flutter && (look > 1 || on_axis) ? Ending::at_meeting
                                                                                : Ending::passed;
 }
@@ -175,8 +186,8 @@ RealSight CriterionWalk::look(double distance) {
            : criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
   const bool is_zero = target_.sought == Sought::zero;
   // A slope this small is rounding: the mode stays on the axis and does not cross it.
-  const double still =
-      axis_width(search_.thresholds().criterion, mode_->solved.node.tracks.front()) * std::abs(series[1]);
+  const double scale = std::max(std::abs(mode_->root), search_.problem().reference(chart()));
+  const double still = rounding_of_mean() / scale * std::abs(series[1]);
   if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
     ending_ = Ending::passed;
     return {RealSight::Kind::absent};
@@ -231,9 +242,7 @@ void CriterionWalk::finish(double offset, double distance, int looks) {
     if (oscillates && matters) record(offset, true, looks);
     return;
   }
-  const double scale = std::max(std::abs(mode_->root), search_.problem().reference(chart()));
-  if (std::abs(value) <=
-      axis_width(search_.thresholds().criterion, mode_->solved.node.tracks.front()) * scale) {
+  if (std::abs(value) <= rounding()) {
     record(offset, true, looks);
   } else if (value * curvature < 0.0) {
     const double half = std::sqrt(-2.0 * value / curvature);
@@ -262,7 +271,7 @@ int CriterionWalk::direction(double offset) const {
 double CriterionWalk::other_factor() const {
   if (!target_.by_product) return 1.0;
   const Track& there = mode_->solved.node.tracks.front();
-  const int root = nearest_member(there, mode_->root);
+  const int root = nearest_member(there, mode_->root, member_.index);
   return (there.roots[root] + there.roots[partner_of_root(there, root)]).real();
 }
 
@@ -309,7 +318,7 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
     return;
   if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
-  const std::vector<int> members{nearest_member(there, mode_->root)};
+  const std::vector<int> members{nearest_member(there, mode_->root, member_.index)};
   keep_shape(node, there, members, offset, event);
   const auto moves = [&](const Track&, const PathNode& along, const Track& along_q) {
     const bool is_zero = located && target_.sought == Sought::zero;
@@ -322,8 +331,10 @@ void CriterionWalk::record(double offset, bool located, int looks) {
 
 }  // namespace
 
-CriteriaOnStep::CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation)
+CriteriaOnStep::CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation,
+                               const RoundingThresholds& thresholds)
     : track_(step.left->tracks[track]),
+      thresholds_(thresholds),
       roots_(*step.left, step.right, track, step.h),
       excitation_(excitation) {
   departing_roots(track_, step.h, departing_);
@@ -348,18 +359,11 @@ double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, dou
 }
 
 double CriteriaOnStep::rounding(std::size_t member, double t) {
-  if (track_.size() == 1) return 0.0;
   if (t != rounding_at_) {
-    const Vector of_functions = criterion_rounding_margin * function_rounding(track_.pair.Lambda);
-    roundings_ = root_errors(roots_.functions()(t), roots_(t), of_functions);
+    roundings_ = rounding_of_roots(track_, roots_.functions()(t), roots_(t), thresholds_);
     rounding_at_ = t;
   }
   return roundings_[static_cast<Eigen::Index>(member)];
-}
-
-double axis_width(const CriterionThresholds& thresholds, const Track& track) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return std::min(thresholds.on_axis, thresholds.roundings * epsilon * std::max(track.pair.condition, 1.0));
 }
 
 Vector excitation_at(const EventSearch& search, const PathNode& node) {

@@ -33,8 +33,9 @@ struct CriterionTarget {
 /// Eigenvalues of one track and their criteria from the dense output of a step, at any t in [0, 1].
 class CriteriaOnStep {
  public:
-  /// `excitation`: the excitation frequency on the step. Keeps references to it and to the step.
-  CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation);
+  /// `excitation`: the excitation frequency on the step. Keeps references to all.
+  CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation,
+                 const RoundingThresholds& thresholds);
 
   /// Smallest t at which the eigenvalues can be distinguished: zero, or a little more where some of them
   /// coincide at the left end.
@@ -48,12 +49,12 @@ class CriteriaOnStep {
   double value(const Criterion& criterion, Complex root, double t) const;
   double value(const Criterion& criterion, std::size_t member, double t);
 
-  /// Rounding error of an eigenvalue of a block at t: near a meeting it is known to a root of rounding only.
-  /// Zero for a mode that is followed alone.
+  /// Error of an eigenvalue at t by rounding: near a meeting it is known to a root of rounding only.
   double rounding(std::size_t member, double t);
 
  private:
   const Track& track_;
+  const RoundingThresholds& thresholds_;
   StrandSampler roots_;
   const HermiteInterpolant& excitation_;
   double rounding_at_ = NAN;  ///< place of `roundings_`
@@ -61,10 +62,6 @@ class CriteriaOnStep {
   double departing_ = 0.0;    ///< where the eigenvalues can be distinguished, in steps; may be negative
   double begin_ = 0.0;
 };
-
-/// |Re s| / max(|s|, reference) up to which an eigenvalue of a track counts as on the imaginary axis:
-/// rounding times the condition number of the track, at most `on_axis`.
-double axis_width(const CriterionThresholds& thresholds, const Track& track);
 
 /// The excitation frequency (rad/s) at a point, as a power series along the path.
 Vector excitation_at(const EventSearch& search, const PathNode& node);

@@ -29,13 +29,14 @@ std::string stability_remark(const EventFacts& facts) {
 }
 
 std::string collision_remark(const EventFacts& facts) {
+  const std::string stability = stability_remark(facts);
   Complex puiseux = facts.puiseux;
-  if (!std::isfinite(puiseux.real()) || puiseux == 0.0) return "";
+  if (!std::isfinite(puiseux.real()) || puiseux == 0.0) return stability;
   // The coefficient is real or imaginary where two real eigenvalues or a pair meet, but for rounding.
   constexpr double rounding = 1e-12;
   if (std::abs(puiseux.real()) < rounding * std::abs(puiseux)) puiseux.real(0.0);
   if (std::abs(puiseux.imag()) < rounding * std::abs(puiseux)) puiseux.imag(0.0);
-  return "Puiseux coefficient " + rounded(puiseux.real()) + (std::signbit(puiseux.imag()) ? " - " : " + ") +
+  return stability + (stability.empty() ? "" : ", ") + "Puiseux coefficient " + rounded(puiseux.real()) + (std::signbit(puiseux.imag()) ? " - " : " + ") +
          rounded(std::abs(puiseux.imag())) + "j";
 }
 

@@ -77,8 +77,7 @@ bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) c
     // Beside a collision on the imaginary axis, rounding can cause zeros of Re s within the accuracy of a
     // double eigenvalue. If the collision is off the axis, a zero that has been located is a different event
     // unless its place is the same to the accuracy of a zero.
-    const double on_axis = thresholds.criterion.on_axis * std::max(std::abs(other.s), s_ref);
-    const bool meets_on_axis = std::abs(other.s.real()) <= on_axis;
+    const bool meets_on_axis = other.s.real() == 0.0;
     // The real eigenvalues of a pair that meets off the axis are not zero there.
     if (zero.kind == EventKind::divergence && located && !meets_on_axis) return false;
     const EventThresholds& same = thresholds.event;

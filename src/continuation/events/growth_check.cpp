@@ -4,8 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "continuation/events/criterion_walk.hpp"
-#include "eigentrail/modes/invariants.hpp"
+#include "continuation/tracks/members.hpp"
 
 namespace eigentrail {
 namespace {
@@ -52,17 +51,13 @@ int guests_that_change(const Step& step) {
 /// Number of followed eigenvalues with Re s > 0, pairs counted twice. Empty where one cannot be told from
 /// zero, or is infinite.
 std::optional<int> growing_eigenvalues(const EventSearch& search, const PathNode& node) {
-  const PathProblem& problem = search.problem();
   int count = 0;
   for (const Track& track : node.tracks) {
-    const double width = axis_width(search.thresholds().criterion, track);
-    const Vector errors =
-        root_errors(track.functions.col(0), track.roots, function_rounding(track.pair.Lambda));
+    const Vector errors = rounding_of_roots(track, search.thresholds().rounding);
     for (Eigen::Index i = 0; i < track.size(); ++i) {
       if (track.modes[static_cast<std::size_t>(i)] == Track::guest) continue;
       const Complex mu = track.roots[i];
-      const double scale = std::max(std::abs(mu), problem.reference(track.pair.chart));
-      if (std::abs(mu.real()) <= width * scale + errors[i]) return std::nullopt;
+      if (std::abs(mu.real()) <= errors[i]) return std::nullopt;
       // A real block holds the conjugates itself.
       if (mu.real() > 0.0) count += track.pair.is_real || mu.imag() == 0.0 ? 1 : 2;
     }

@@ -11,12 +11,15 @@
 namespace eigentrail {
 namespace {
 
-/// The eigenvalue of the event: the mean of those that meet, with Im s >= 0. `is_pair`: a pair and its
-/// conjugate meet, and the mean is real but for rounding.
-Complex place_of(const Track& track, const Meeting& meeting, bool is_pair) {
+/// The eigenvalue of the event: the mean of those that meet, with Im s >= 0. Its real part is zero where it is
+/// below `rounding`, the error of the mean. `is_pair`: a pair and its conjugate meet, and the mean is real but
+/// for rounding.
+Complex place_of(const Track& track, const Meeting& meeting, bool is_pair, double rounding) {
   Complex mean = 0.0;
   for (const int i : meeting.members) mean += track.roots[i];
-  const Complex s = chart_value(mean / static_cast<double>(meeting.members.size()), track.pair.chart);
+  mean /= static_cast<double>(meeting.members.size());
+  if (std::abs(mean.real()) <= rounding) mean.real(0.0);
+  const Complex s = chart_value(mean, track.pair.chart);
   if (is_pair) return s.real();
   return s.imag() < 0.0 ? std::conj(s) : s;
 }
@@ -35,6 +38,14 @@ bool settle_veering(const EventSearch& search, const PathNode& node, const Track
   meeting.offset = place->offset;
   meeting.half_width = place->half_width;
   return true;
+}
+
+/// Where two eigenvalues meet on the imaginary axis: 1 if they leave it with growing p, so that one of them grows;
+/// -1 if they come from there. 0 for other collisions.
+int direction_off_axis(const Event& event, int cycle) {
+  if (event.s.real() != 0.0 || cycle != 2) return 0;
+  const double square = (event.puiseux * event.puiseux).real();
+  return square > 0.0 ? 1 : square < 0.0 ? -1 : 0;
 }
 
 /// The event of a meeting; empty where no modes take part or the meeting is not an event.
@@ -57,13 +68,15 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   Event event;
   event.kind = meeting.kind;
   event.p = node.p + meeting.offset * speed;
-  event.s = place_of(track, meeting, is_pair);
+  event.s = place_of(track, meeting, is_pair,
+                     search.thresholds().rounding.entries * track.pair.rounding);
   event.modes = modes;
   if (event.kind == EventKind::veering) event.half_width = std::abs(speed) * meeting.half_width;
   if (event.kind == EventKind::collision) {
     const double exponent = 1.0 / static_cast<double>(meeting.cycle);
     event.puiseux = meeting.puiseux / std::pow(Complex(speed), exponent);
     if (track.pair.chart == Chart::reciprocal) event.puiseux *= -event.s * event.s;
+    event.direction = direction_off_axis(event, meeting.cycle);
   }
   event.retrackings = found.looks;
   event.node = search.node;

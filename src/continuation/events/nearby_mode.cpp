@@ -107,7 +107,8 @@ std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode
     s = std::conj(s);
     series = series.conjugate().eval();
   }
-  const double gap = there.roots.size() > 1 ? least_gap(there.roots) : INFINITY;
+  const bool are_one = there.size() == 2 && there.functions.row(1).isZero(0.0);
+  const double gap = there.size() > 1 && !are_one ? least_gap(there.roots) : INFINITY;
   return NearbyMode{std::move(*beside), s, std::move(series), gap, is_mean};
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/matrix_series.hpp"
@@ -11,26 +12,29 @@
 namespace eigentrail {
 namespace {
 
-/// A matrix whose smallest singular value is at most about this share of its scale counts as singular, since
-/// rounding determines the sign of its determinant. The value has a margin for the rounding of the
-/// projection.
-constexpr double regular = 1e-11;
+/// Error of an entry of a reduced stiffness, in units of 2.2e-16 of the magnitudes of the terms that it is a sum
+/// of. As RoundingThresholds::entries.
+constexpr double roundings = 10.0;
 
-/// A stiffness in reduced coordinates, and the norm of the terms that its entries are sums of.
+/// A stiffness in reduced coordinates, and the magnitudes of the terms that its entries are sums of.
 struct Stiffness {
-  Matrix K;
-  double scale;
-
-  double rounding() const { return regular * scale; }
+  Matrix K, terms;
 };
 
-/// Without a sign if the smallest singular value is at most `least`.
-LogDeterminant determinant_of(const Matrix& K, double least) {
-  if (K.size() == 0) return {};
+/// In coordinates in which the terms of the diagonal are one: stiffnesses of very different size, as those of
+/// stretching and bending, do not hide each other. Without a sign if the smallest singular value there is at most
+/// `margin` times the error by rounding.
+LogDeterminant determinant_of(const Stiffness& stiffness, double margin) {
+  if (stiffness.K.size() == 0) return {};
+  const Vector scale =
+      stiffness.terms.diagonal().unaryExpr([](double term) { return term > 0.0 ? 1.0 / std::sqrt(term) : 1.0; });
+  const auto norm = [](const Matrix& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
+  const Matrix K = scale.asDiagonal() * stiffness.K * scale.asDiagonal();
+  const double rounding = roundings * std::numeric_limits<double>::epsilon() *
+                          norm(scale.asDiagonal() * stiffness.terms * scale.asDiagonal());
   const Eigen::PartialPivLU<Matrix> lu(K);
-  const double norm = K.cwiseAbs().colwise().sum().maxCoeff();
-  if (!(lu.rcond() * norm > least)) return {};
-  LogDeterminant result{static_cast<double>(lu.permutationP().determinant()), 0.0};
+  if (!(lu.rcond() * norm(K) > margin * rounding)) return {};
+  LogDeterminant result{static_cast<double>(lu.permutationP().determinant()), -2.0 * scale.array().log().sum()};
   for (const double pivot : lu.matrixLU().diagonal()) {
     result.sign *= pivot > 0.0 ? 1.0 : -1.0;
     result.logarithm += std::log(std::abs(pivot));
@@ -50,11 +54,12 @@ std::vector<Eigen::Index> held_freedoms(const IndependentParts& parts) {
 /// `K` in the coordinates of a basis, of the freedoms that are held. `whole`: the stiffness of which K is a
 /// projection.
 Stiffness held_stiffness(const Matrix& K, const TangentBasis& basis, const SystemMatrix& whole) {
-  if (!basis.parts) return {K, whole.one_norm()};
+  if (basis.is_identity) return {K, whole.dense().cwiseAbs()};
+  if (!basis.parts) return {K, magnitudes_of_terms(basis.T[0], whole.dense(), basis.T[0])};
   const IndependentParts& parts = *basis.parts;
   const std::vector<Eigen::Index> held = held_freedoms(parts);
   const Matrix terms = magnitudes_of_terms(parts.left, whole.dense(), parts.right);
-  return {K(held, held), held.empty() ? 0.0 : terms(held, held).colwise().sum().maxCoeff()};
+  return {K(held, held), terms(held, held)};
 }
 
 Stiffness held_stiffness(const PathPoint& point) {
@@ -77,24 +82,19 @@ LogDeterminant of_the_whole(const SystemMatrix& K, const SystemMatrix& A) {
 
 LogDeterminant stiffness_determinant(const PathProblem& problem, const PathPoint& point) {
   const Equilibrium& at = point.equilibrium;
-  if (problem.model.projection() == nullptr) {
-    const Stiffness stiffness = held_stiffness(point);
-    return determinant_of(stiffness.K, stiffness.rounding());
-  }
+  if (problem.model.projection() == nullptr) return determinant_of(held_stiffness(point), 1.0);
   return of_the_whole(at.linearization.K[0], at.linearization.A[0]);
 }
 
 LogDeterminant stiffness_determinant(const PathProblem& problem, const PathNode& node, double distance) {
   const Linearization& at = node.linearization;
-  if (problem.model.projection() == nullptr) {
-    const Stiffness stiffness = held_stiffness(evaluate_series(node.pencil.K, distance), node.basis, at.K[0]);
-    return determinant_of(stiffness.K, stiffness.rounding());
-  }
+  if (problem.model.projection() == nullptr)
+    return determinant_of(held_stiffness(evaluate_series(node.pencil.K, distance), node.basis, at.K[0]), 1.0);
   return of_the_whole(evaluated(at.K, distance), evaluated(at.A, distance));
 }
 
 double vanishing_determinant(const PathPoint& point, const LogDeterminant& unit) {
-  return determinant_of(held_stiffness(point).K, 0.0).relative_to(unit);
+  return determinant_of(held_stiffness(point), 0.0).relative_to(unit);
 }
 
 double WholeSingularity::operator()(const PathPoint& point) {

@@ -51,6 +51,7 @@ std::optional<ContinuedMode> continue_mode(const std::vector<Track>& previous, c
   mode.pair.part = track.pair.part;
   mode.pair.is_real = track.pair.is_real;
   mode.pair.condition = track.pair.condition;
+  mode.pair.rounding = track.pair.rounding;
   mode.pair.Z = mode.series.Z[0];
   mode.pair.Lambda = mode.series.Lambda[0];
   if (track.pair.is_real) {

@@ -188,8 +188,25 @@ class PhysicalSeries {
   std::optional<SparseSeries> sparse_;  ///< of a large model, where most entries are zero
 };
 
+/// Removes what rounding leaves of real parts of one or two eigenvalues, where the spectrum is symmetric about
+/// the imaginary axis: each, or their mean, is on the axis, and delta is real. Larger real parts are of members
+/// whose mirror images are not in the block.
+void settle_on_axis(double rounding, Track& track) {
+  const Eigen::Index k = track.size();
+  if (k > 2 || std::abs(track.functions(0, 0).real()) > rounding) return;
+  const bool is_delta_real =
+      k == 1 || std::abs(track.functions(1, 0).imag()) <= function_rounding(track.pair.Lambda, rounding)[1];
+  if (!is_delta_real) return;
+  for (Eigen::Index j = 0; j < track.functions.cols(); ++j)
+    track.series.Lambda[static_cast<std::size_t>(j)].diagonal().array() -= track.functions(0, j).real();
+  track.pair.Lambda.diagonal().array() -= track.functions(0, 0).real();
+  track.functions.row(0).real().setZero();
+  if (k == 2) track.functions.row(1).imag().setZero();
+  track.roots = in_order_of(track.roots, block_roots(track.functions.col(0)));
+}
+
 /// The track of a corrected pair, from its series in physical coordinates. No mode numbers yet.
-Track make_track(InvariantPair pair, PairSeries series) {
+Track make_track(const PathProblem& problem, InvariantPair pair, PairSeries series) {
   Track track;
   track.pair = std::move(pair);
   track.functions = block_functions(series.Lambda);
@@ -199,6 +216,8 @@ Track make_track(InvariantPair pair, PairSeries series) {
   if (are_one) track.roots.setConstant(track.functions(0, 0));
   track.modes.assign(static_cast<std::size_t>(track.size()), Track::no_mode);
   track.series = std::move(series);
+  if (problem.structure.reflects_spectrum())
+    settle_on_axis(problem.thresholds.rounding.entries * track.pair.rounding, track);
   return track;
 }
 
@@ -207,20 +226,20 @@ Track differentiate_track(const PathProblem& problem, const PathNode& node, cons
   PairSeries series = differentiate_pair(node.pencil.of(pair.part), pair, problem.order + 1, counts,
                                          problem.corrector.series_accuracy);
   series.Z = physical(std::move(series.Z), pair.part);
-  return make_track(std::move(pair), std::move(series));
+  return make_track(problem, std::move(pair), std::move(series));
 }
 
 /// The track of pair i of a point: from an earlier computation, as extrapolated, or differentiated now.
 Track track_at(const PathProblem& problem, const PathNode& node, const PhysicalSeries& physical,
                const PathPoint& point, std::size_t i, ModeCounts& counts) {
   if (i < point.ready.size() && point.ready[i] != nullptr) {
-    Track track = make_track(point.ready[i]->pair, point.ready[i]->series);
+    Track track = make_track(problem, point.ready[i]->pair, point.ready[i]->series);
     track.passed = point.ready[i]->passed;
     return track;
   }
   if (i >= point.passed.size() || !point.passed[i])
     return differentiate_track(problem, node, physical, point.pairs[i], counts);
-  Track track = make_track(point.pairs[i], *point.passed[i]);
+  Track track = make_track(problem, point.pairs[i], *point.passed[i]);
   track.passed = true;
   return track;
 }
@@ -250,7 +269,7 @@ std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point,
                                           counts.modes);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     series[i].Z = physical(std::move(series[i].Z), point.pairs[i].part);
-    tracks[i] = make_track(point.pairs[i], std::move(series[i]));
+    tracks[i] = make_track(problem, point.pairs[i], std::move(series[i]));
   }
   return tracks;
 }

@@ -15,6 +15,10 @@ double RecordedPath::highest() const {
   return p.empty() ? NAN : *std::max_element(p.begin(), p.end());
 }
 
+double RecordedPath::rounding_at(std::size_t node, int mode) const {
+  return rounding.size() > 0 ? rounding(static_cast<Eigen::Index>(node), mode) : 0.0;
+}
+
 std::vector<PathPosition> RecordedPath::positions(double value) const {
   std::vector<Position> found;
   for (std::size_t step = 0; step < steps.size(); ++step) {
@@ -56,10 +60,17 @@ ComplexVector RecordedPath::eigenvalues_at(const Position& position) const {
 }
 
 PathRecorder::PathRecorder(const RecordedPath& path)
-    : p_(path.p), steps_(path.steps), n_modes_(static_cast<std::size_t>(path.eigenvalues.cols())) {
+    : p_(path.p),
+      growing_unfollowed_(path.growing_unfollowed),
+      steps_(path.steps),
+      n_modes_(static_cast<std::size_t>(path.eigenvalues.cols())) {
+  growing_unfollowed_.resize(p_.size(), -1);
   for (Eigen::Index node = 0; node < path.eigenvalues.rows(); ++node) {
     const ComplexVector row = path.eigenvalues.row(node).transpose();
     eigenvalues_.emplace_back(row.begin(), row.end());
+    std::vector<double>& rounding = rounding_.emplace_back();
+    for (int mode = 0; mode < static_cast<int>(n_modes_); ++mode)
+      rounding.push_back(path.rounding_at(static_cast<std::size_t>(node), mode));
   }
 }
 
@@ -68,20 +79,28 @@ void PathRecorder::append(const TracePoint& point) {
   for (const ModeState& state : point.modes)
     n_modes_ = std::max(n_modes_, static_cast<std::size_t>(state.mode) + 1);
   std::vector<Complex>& row = eigenvalues_.emplace_back(n_modes_, Complex(nan, nan));
-  for (const ModeState& state : point.modes) row[static_cast<std::size_t>(state.mode)] = state.s;
+  std::vector<double>& rounding = rounding_.emplace_back(n_modes_, nan);
+  for (const ModeState& state : point.modes) {
+    row[static_cast<std::size_t>(state.mode)] = state.s;
+    rounding[static_cast<std::size_t>(state.mode)] = state.rounding;
+  }
+  growing_unfollowed_.push_back(point.growing_unfollowed);
   p_.push_back(point.node.p);
   if (point.step != nullptr) steps_.push_back(*point.step);
 }
 
 RecordedPath PathRecorder::path() const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  RecordedPath path{p_, {}, steps_};
+  RecordedPath path{p_, {}, steps_, {}, growing_unfollowed_};
   path.eigenvalues.setConstant(static_cast<Eigen::Index>(p_.size()), static_cast<Eigen::Index>(n_modes_),
                                Complex(nan, nan));
+  path.rounding.setConstant(path.eigenvalues.rows(), path.eigenvalues.cols(), nan);
   for (std::size_t node = 0; node < eigenvalues_.size(); ++node) {
-    const std::vector<Complex>& row = eigenvalues_[node];
-    for (std::size_t mode = 0; mode < row.size(); ++mode)
-      path.eigenvalues(static_cast<Eigen::Index>(node), static_cast<Eigen::Index>(mode)) = row[mode];
+    for (std::size_t mode = 0; mode < eigenvalues_[node].size(); ++mode) {
+      const auto row = static_cast<Eigen::Index>(node), column = static_cast<Eigen::Index>(mode);
+      path.eigenvalues(row, column) = eigenvalues_[node][mode];
+      path.rounding(row, column) = rounding_[node][mode];
+    }
   }
   return path;
 }

@@ -20,8 +20,8 @@ namespace eigentrail {
 /// The factors are not saved: they are not used after the point.
 template <SameAs<InvariantPair> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [status, chart, part, is_real, Z, Lambda, W, backward_error, condition, factors] = self;
-  visit(status, chart, part, is_real, Z, Lambda, W, backward_error, condition);
+  auto& [status, chart, part, is_real, Z, Lambda, W, backward_error, condition, rounding, factors] = self;
+  visit(status, chart, part, is_real, Z, Lambda, W, backward_error, condition, rounding);
 }
 
 template <SameAs<Track::Departure> Self, class Visit>
@@ -131,8 +131,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<TraceSettings> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [order, s_ref, s_max, route, follows_all, joins_pairs] = self;
-  visit(order, s_ref, s_max, route, follows_all, joins_pairs);
+  auto& [order, s_ref, s_max, route, follows_all, leaves_out, joins_pairs] = self;
+  visit(order, s_ref, s_max, route, follows_all, leaves_out, joins_pairs);
 }
 
 /// The other path is not saved: it is used, or no longer needed, before the next state is saved.

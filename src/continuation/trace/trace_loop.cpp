@@ -22,7 +22,6 @@
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/mode_states.hpp"
-#include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "continuation/tracks/towards_infinity.hpp"
 
@@ -236,6 +235,9 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
+  Newcomers needed = look_for_newcomers(node, !meetings.empty());
+  begin_here(problem_, std::move(needed.tracks), node, state_.numbers);
+  growing_unfollowed_ = needed.growing;
   number_modes(state_, node);
   log(std::move(met));
   if (!emit(node, nullptr)) return false;
@@ -405,6 +407,13 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
   return true;
 }
 
+/// `meets`: eigenvalues coincide at the point.
+Newcomers TraceLoop::look_for_newcomers(const PathNode& node, bool meets) {
+  if (!state_.settings.leaves_out) return {{}, 0};
+  if (meets) return {};
+  return newcomers(problem_, options_.modes, node, state_.result.counts);
+}
+
 /// Takes a step: finds its events, stores and emits it, checks that no mode is missing, chooses what is
 /// followed together behind its end, and makes the end the origin of the next step. Returns whether the trace
 /// goes on. Where the chosen modes include one that nobody follows, the step is not taken, but tried again
@@ -412,9 +421,8 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
-  std::vector<Track> wanted;
-  if (landed.meetings.empty()) wanted = newcomers(problem_, options_.modes, step.right, result.counts);
-  if (follow_back(problem_, wanted, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
+  Newcomers needed = look_for_newcomers(step.right, !landed.meetings.empty());
+  if (follow_back(problem_, needed.tracks, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
     number_modes(state_, state_.origin.node);
     state_.origin.tried.reset();
     return true;  // the step is taken again, with them
@@ -444,12 +452,13 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
                            std::to_string(pair.kept + 1));
   for (int i = 0; i < found.added; ++i) result.notes.push_back("a mode that was missing was added " + where);
   result.regroupings.repaired += found.added;
-  const int begun = begin_here(problem_, std::move(wanted), step.right, state_.numbers);
+  const int begun = begin_here(problem_, std::move(needed.tracks), step.right, state_.numbers);
   for (int i = 0; i < begun; ++i) {
     if (result.notes.size() < most_notes)
-      result.notes.push_back("a mode that is wanted was noticed " + where +
+      result.notes.push_back("a mode that is wanted, or grows, was noticed " + where +
                              " and could not be followed back; it begins there");
   }
+  growing_unfollowed_ = needed.growing;
   number_modes(state_, step.right);
   for (const DenseBlock& block : stored.blocks) {
     result.mode_steps += static_cast<long>(block.modes.size());
@@ -604,7 +613,10 @@ bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   result.reached = node.p;
   ++result.nodes;
   const StageTimer timer(result.counts.output_seconds);
-  if (observer_.point({node, mode_states(node, problem_.traced, state_.copies), step})) return true;
+  if (observer_.point({node,
+                       mode_states(node, problem_.traced, state_.copies, problem_.thresholds.rounding), step,
+                       growing_unfollowed_}))
+    return true;
   return stop(TraceStatus::stopped, "stopped on request at " + place_text(options_, node.p));
 }
 

@@ -8,6 +8,7 @@
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
+#include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "eigentrail/continuation/trace_observer.hpp"
 
@@ -39,6 +40,7 @@ class TraceLoop final : private Checkpoint {
   bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
   bool shorten(const Verdict& verdict, double length);
   bool commit(LandedStep landed, const std::vector<bool>& certified);
+  Newcomers look_for_newcomers(const PathNode& node, bool meets);
   void settle_events(LandedStep& landed);
   void log_branch_point(const PathNode& node);
   void regroup(Step& step);
@@ -68,6 +70,7 @@ class TraceLoop final : private Checkpoint {
   EventLog log_;
   EventSearch search_;
   std::vector<TrackTest> tests_;  ///< of the tracks of the last step that was judged
+  int growing_unfollowed_ = -1;   ///< at the last point, as Newcomers::growing
   double reach_ = 3.0;            ///< see parting_reach; replaced when the order is known
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_before_ = 0.0;  ///< wall time of the earlier runs that this one continues

@@ -11,14 +11,18 @@
 #include "eigentrail/continuation/route_choice.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// s_ref / median |s| of the followed modes at the start, if the options give no reference. A mode a thousand
-/// times slower than most others then gets the absolute accuracy of a zero eigenvalue. A larger value loosens
-/// the tolerance of slow modes, a smaller one may ask for more accuracy near zero than rounding allows.
+/// s_ref / median |s| of the followed modes that oscillate at the start, if the options give no reference. A
+/// larger value loosens the tolerance of slow modes, a smaller one may ask for more accuracy near zero than
+/// rounding allows.
 constexpr double reference_share = 1e-3;
+/// s_ref is at most this share of the slowest oscillation, so that every oscillation has its relative accuracy.
+/// A smaller value costs points where eigenvalues pass zero.
+constexpr double share_of_slowest = 0.1;
 /// Least median |s| that is used, as a share of the scale of the pencil. A smaller median is rounding: most
 /// modes are rigid-body motions.
 constexpr double rigid_share = 1e-6;
@@ -44,6 +48,12 @@ constexpr double shortest_first = 1e-6;
 /// eigenvalues this far behind it. At a larger distance other changes are mixed in; at a smaller one the
 /// eigenvalues differ too little.
 constexpr double beside_start = 1e-6;
+
+/// Whether a mode has a damping ratio below 0.7, or grows as slowly. Those of others say little about the
+/// frequencies of a system: overdamped modes may be slower or faster by any factor.
+bool oscillates(Complex s) {
+  return std::abs(s.imag()) > std::abs(s.real());
+}
 
 double largest_entry(const Matrix& matrix) {
   return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
@@ -75,6 +85,7 @@ class Start {
   void list_permanent_zeros(const Spectrum& spectrum);
   int structural_infinities() const;
   void settle_magnitudes(const Spectrum& spectrum);
+  void lower_reference();
   Failure correct_groups(const std::vector<StartingGroup>& groups);
   Failure make_node(const std::vector<StartingGroup>& groups);
   std::optional<Spectrum> spectrum_beside_branch_point() const;
@@ -105,6 +116,7 @@ std::optional<StartFailure> Start::compute() {
   const double least_scale = bridged ? problem_.s_ref / reference_share : 0.0;
   const auto groups = starting_groups(point_.pencil, modes_, result_.n_modes, problem_.s_ref, least_scale);
   if (auto failure = correct_groups(groups)) return failure;
+  if (!options_.reference) lower_reference();
   return make_node(groups);
 }
 
@@ -179,6 +191,8 @@ std::optional<StartFailure> Start::find_modes() {
   list_permanent_zeros(spectrum);
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available;
+  settings.leaves_out = std::any_of(spectrum.modes.begin() + result_.n_modes, spectrum.modes.end(),
+                                    [](const StartingMode& mode) { return !mode.is_permanent_zero; });
   // Infinite eigenvalues are not followed, except those that coordinates of first order have in the form with
   // velocities. Independent parts are followed each by itself.
   const bool none_infinite = spectrum.n_infinite == 2 * pencil.size() - state_size(pencil.M[0]);
@@ -251,13 +265,24 @@ int Start::structural_infinities() const {
   return count;
 }
 
+/// Magnitudes, ascending, of those of the first `n` modes that oscillate; of all of them if none does.
+std::vector<double> typical_sizes(const std::vector<StartingMode>& modes, std::size_t n) {
+  std::vector<double> all, oscillating;
+  for (std::size_t i = 0; i < n; ++i) {
+    all.push_back(std::abs(modes[i].s));
+    if (oscillates(modes[i].s)) oscillating.push_back(all.back());
+  }
+  return oscillating.empty() ? all : oscillating;
+}
+
 /// Sets s_ref and s_max, the magnitudes that count as zero and as infinite.
 void Start::settle_magnitudes(const Spectrum& spectrum) {
   // On a branch point eigenvalues vanish. Their size beside it is the scale.
   const auto beside = state_.frame.bridge ? spectrum_beside_branch_point() : std::nullopt;
   const std::vector<StartingMode>& typical = beside ? beside->modes : spectrum.modes;
-  const auto middle = std::min(static_cast<std::size_t>(result_.n_modes) / 2, typical.size() - 1);
-  const double median = std::max(std::abs(typical[middle].s), rigid_share * spectrum.scale);
+  const std::vector<double> sizes =
+      typical_sizes(typical, std::min(static_cast<std::size_t>(result_.n_modes), typical.size()));
+  const double median = std::max(sizes[sizes.size() / 2], rigid_share * spectrum.scale);
   TraceSettings& settings = state_.settings;
   settings.s_ref = result_.s_ref = options_.reference.value_or(reference_share * median);
   const double largest =
@@ -295,6 +320,23 @@ std::optional<StartFailure> Start::correct_groups(const std::vector<StartingGrou
                                                         "; begin the trace elsewhere, or follow fewer modes"};
   }
   return std::nullopt;
+}
+
+/// Lowers s_ref where an oscillation is slow.
+void Start::lower_reference() {
+  double slowest = INFINITY;
+  for (const InvariantPair& pair : point_.pairs) {
+    if (pair.chart != Chart::finite) continue;
+    const ComplexVector s = pair_eigenvalues(pair);
+    const ComplexVector functions = block_functions({pair.Lambda}).col(0);
+    const Vector errors = root_errors(
+        functions, s, function_rounding(pair.Lambda, problem_.thresholds.rounding.entries * pair.rounding));
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      if (oscillates(s[i]) && std::abs(s[i]) > errors[i]) slowest = std::min(slowest, std::abs(s[i]));
+    }
+  }
+  state_.settings.s_ref = result_.s_ref = std::min(result_.s_ref, share_of_slowest * slowest);
+  apply(state_.settings, problem_);
 }
 
 std::optional<StartFailure> Start::make_node(const std::vector<StartingGroup>& groups) {

@@ -20,6 +20,7 @@ struct TraceSettings {
   double s_ref = 1.0, s_max = 1e300;
   ModeRoute route = ModeRoute::one_by_one;
   bool follows_all = false;  ///< every finite mode is followed
+  bool leaves_out = false;   ///< there are others beside the followed modes and permanent zeros
   bool joins_pairs = false;  ///< a mode came near the real axis: conjugate pairs of parts are real parts now
 };
 

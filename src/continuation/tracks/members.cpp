@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "eigentrail/modes/invariants.hpp"
+
 namespace eigentrail {
 
 std::vector<int> sorted_modes(const std::vector<int>& modes) {
@@ -25,6 +27,16 @@ std::vector<Complex> roots_of(const Track& track, const std::vector<int>& member
   roots.reserve(members.size());
   for (const int i : members) roots.push_back(track.roots[i]);
   return roots;
+}
+
+Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,
+                         const RoundingThresholds& thresholds) {
+  return root_errors(functions, roots,
+                     function_rounding(track.pair.Lambda, thresholds.entries * track.pair.rounding));
+}
+
+Vector rounding_of_roots(const Track& track, const RoundingThresholds& thresholds) {
+  return rounding_of_roots(track, track.functions.col(0), track.roots, thresholds);
 }
 
 }  // namespace eigentrail

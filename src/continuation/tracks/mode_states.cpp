@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
@@ -47,7 +48,8 @@ Complex slope_of(const Track& track, Complex root, Eigen::Index index, double sp
 }
 
 /// The mode of root i of a track; `vectors` as from vectors_of.
-ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors, double speed) {
+ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors, double rounding,
+                   double speed) {
   ModeState state;
   state.mode = mode;
   const Complex root = track.roots[i];
@@ -62,6 +64,7 @@ ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMa
   }
   state.backward_error = track.pair.backward_error;
   state.condition = track.pair.condition;
+  state.rounding = track.pair.chart == Chart::finite ? rounding : rounding * std::norm(state.s);
   return state;
 }
 
@@ -80,18 +83,20 @@ void add_copies(const TangentBasis& basis, int part, const std::vector<int>& num
 
 }  // namespace
 
-std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies) {
+std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies,
+                                   const RoundingThresholds& thresholds) {
   std::vector<ModeState> states;
   const double speed = coefficient(node.path.parameters, traced, 1);
   for (const Track& track : node.tracks) {
     const ComplexMatrix vectors = vectors_of(track);
+    const Vector rounding = rounding_of_roots(track, thresholds);
     for (Eigen::Index i = 0; i < track.size(); ++i) {
       for (const std::vector<int>* modes : {&track.arriving, &track.modes}) {
         const int mode = (*modes)[static_cast<std::size_t>(i)];
         const bool seen = std::any_of(states.begin(), states.end(),
                                       [mode](const ModeState& state) { return state.mode == mode; });
         if (mode < 0 || seen) continue;
-        states.push_back(state_of(track, i, mode, vectors, speed));
+        states.push_back(state_of(track, i, mode, vectors, rounding[i], speed));
         add_copies(node.basis, track.pair.part, copies.of(mode), states);
       }
     }

@@ -8,6 +8,7 @@ namespace eigentrail {
 
 /// Every mode that exists before or behind the point, those of `copies` included. `traced`: index of the
 /// traced parameter.
-std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies = {});
+std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies = {},
+                                   const RoundingThresholds& thresholds = {});
 
 }  // namespace eigentrail

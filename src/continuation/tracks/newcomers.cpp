@@ -1,15 +1,17 @@
 #include "continuation/tracks/newcomers.hpp"
-#include "continuation/tracks/arrival.hpp"
 
 #include <algorithm>
 
 #include "continuation/point/point_solver.hpp"
+#include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/members.hpp"
 #include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "modes/energy_stability.hpp"
 
 namespace eigentrail {
 namespace {
@@ -27,6 +29,26 @@ int add(Track track, PathNode& node, ModeNumbers& numbers) {
   return added;
 }
 
+/// Number of eigenvalues of a spectrum with Re s > 0; a complex pair counts once.
+int growing_roots(const ComplexVector& roots) {
+  return static_cast<int>((roots.real().array() > 0.0 && roots.imag().array() >= 0.0).count());
+}
+
+/// Makes guests of the modes of a track that are not needed: neither wanted, nor growing by more than rounding.
+/// Returns whether any is.
+template <class IsWanted>
+bool dismiss_unneeded(const PathProblem& problem, const IsWanted& is_wanted, Track& track) {
+  const Vector rounding = rounding_of_roots(track, problem.thresholds.rounding);
+  bool any = false;
+  for (Eigen::Index i = 0; i < track.size(); ++i) {
+    int& mode = track.modes[static_cast<std::size_t>(i)];
+    const bool grows = track.roots[i].real() > rounding[i];  // also of 1/s
+    if (mode >= 0 && !grows && !is_wanted(chart_value(track.roots[i], track.pair.chart))) mode = Track::guest;
+    any = any || mode >= 0;
+  }
+  return any;
+}
+
 /// A newcomer at the left end of the step of length h behind which it was noticed; empty if it is not
 /// recognized there, or followed already.
 std::optional<Track> at_left_end(const PathProblem& problem, const Track& newcomer, double h,
@@ -41,31 +63,40 @@ std::optional<Track> at_left_end(const PathProblem& problem, const Track& newcom
 
 }  // namespace
 
-std::vector<Track> newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
-                             RunCounts& counts) {
-  if (!choice.may_grow()) return {};
+Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
+                    RunCounts& counts) {
+  const bool is_whole = problem.model.projection() == nullptr;
+  if (!is_whole && !choice.may_grow()) return {};
   const bool meeting = std::any_of(node.tracks.begin(), node.tracks.end(),
                                    [](const Track& track) { return track.departure.has_value(); });
   if (meeting) return {};
   const StageTimer timer(counts.matching_seconds);
+  const bool may_grow = is_whole && !is_stable_by_energy(node.pencil, problem.structure);
+  if (!choice.may_grow() && !may_grow) return {{}, 0};
   const Spectrum spectrum = compute_eigenvalues(node.pencil);
   ++counts.spectra;
   if (spectrum.status != SpectrumStatus::complete) return {};
+  const auto is_wanted = [&](Complex s) { return choice.may_grow() && choice.wants(s); };
   std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
-  const auto wanted_end = std::stable_partition(others.begin(), others.end(), [&](const StartingMode& mode) {
-    return choice.wants(mode.s) && has_arrived(problem, node, mode.s);
+  const auto needed_end = std::stable_partition(others.begin(), others.end(), [&](const StartingMode& mode) {
+    return (is_wanted(mode.s) || (may_grow && mode.s.real() > 0.0)) && has_arrived(problem, node, mode.s);
   });
-  std::vector<Track> found;
+  Newcomers found{{}, is_whole ? 0 : -1};
   for (const StartingGroup& group :
-       starting_groups(node.pencil, others, static_cast<int>(wanted_end - others.begin()), problem.s_ref)) {
+       starting_groups(node.pencil, others, static_cast<int>(needed_end - others.begin()), problem.s_ref)) {
     InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
                                       problem.s_ref, problem.corrector, counts.modes);
-    if (pair.status != PairStatus::converged) continue;
-    Track track = differentiate_track(problem, node, std::move(pair), counts);
-    if (!track.functions.allFinite() || is_followed(problem, node, track)) continue;
-    track.roots = in_order_of(group.roots, track.roots);
-    track.modes = group.modes;
-    found.push_back(std::move(track));
+    std::optional<Track> track;
+    if (pair.status == PairStatus::converged)
+      track = differentiate_track(problem, node, std::move(pair), counts);
+    if (!track || !track->functions.allFinite()) {
+      if (may_grow) found.growing += growing_roots(group.roots);
+      continue;
+    }
+    if (is_followed(problem, node, *track)) continue;
+    track->roots = in_order_of(group.roots, track->roots);
+    track->modes = group.modes;
+    if (dismiss_unneeded(problem, is_wanted, *track)) found.tracks.push_back(std::move(*track));
   }
   return found;
 }

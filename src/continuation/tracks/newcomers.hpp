@@ -1,4 +1,5 @@
-// Modes that come into the chosen band, or become less damped than asked for, after the trace has begun.
+// Modes that nobody follows and a trace needs: those that come into the chosen band, or become less damped than
+// asked for, and those that grow, because the verdict of the trace is about the whole model.
 #pragma once
 
 #include "continuation/tracks/mode_order.hpp"
@@ -6,12 +7,19 @@
 
 namespace eigentrail {
 
-/// Tracks of modes at the end of a step that the choice wants and nobody follows, or blocks with such modes.
-/// Empty where the choice is settled at the start (ModeChoice::may_grow) or eigenvalues meet at the point.
-/// Their `modes` hold numbers from 0 for those that are wanted, as guests the others. Cost: a spectrum
-/// without vectors.
-std::vector<Track> newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
-                             RunCounts& counts);
+struct Newcomers {
+  /// Single modes and blocks. Their `modes` hold numbers from 0 for those that are needed, as guests the others.
+  std::vector<Track> tracks = {};
+  /// Number of growing modes of the whole model that are neither followed nor in `tracks`; -1: not known.
+  int growing = -1;
+};
+
+/// The newcomers at a point. Where eigenvalues meet nothing is known. Of a large model only its projection is
+/// searched, for modes that the choice wants. Cost: two Cholesky factors where the energy shows that nothing
+/// grows and the choice is settled at the start (ModeChoice::may_grow), else a spectrum without vectors, and the
+/// correction of every mode with Re s > 0 in it.
+Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
+                    RunCounts& counts);
 
 /// Follows the newcomers of a step back to its left end `left`. Those that are found there are added to it,
 /// with new numbers: the step has to be taken again, with them. Returns how many modes were added.

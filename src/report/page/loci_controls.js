@@ -49,7 +49,7 @@ function lociControls(view) {
 function lociKey(view) {
   const { files, settings, style } = view, several = files.length > 1;
   const has = (test) => files.some(test);
-  const ranges = (kind) => has((file) => (file.data.ranges || []).some((range) => range.kind === kind));
+  const ranges = (kind, whole = true) => has((file) => (file.data.ranges || []).some((range) => range.kind === kind && range.whole === whole));
   const operates = has((file) => file.data.excitation && file.data.excitation.operating.ranges.length);
   const margin = operates && files.find((file) => file.data.excitation && file.data.excitation.operating.ranges.length).data.excitation.operating.margin;
   const item = (kind, text) => element("span", {}, element("i", { class: kind }), text);
@@ -58,6 +58,7 @@ function lociKey(view) {
     several && (ranges("stable") || ranges("marginal") || ranges("undecided")) && element("span", { text: "strips above: no mode grows (pale: marginal; palest: undecided)" }),
     !several && ranges("stable") && item("stable", "stable: all modes decay"),
     !several && ranges("marginal") && item("marginal", "marginal: none grows, some stay on the imaginary axis"),
+    !several && (ranges("stable", false) || ranges("marginal", false)) && item("partial", "no followed mode grows; others are not known"),
     !several && ranges("undecided") && item("undecided", "undecided: the errors of the data leave it open"),
     operates && item("operating", "operating range"),
     operates && item("margin", `separation margin ${margin === null ? "by API 684, for the amplification factors found" : percent(margin)}`),

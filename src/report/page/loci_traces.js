@@ -165,6 +165,7 @@ function markTrace(lines, isActive, style, axes) {
 }
 
 const RANGE_COLOURS = { stable: "rgba(0,158,115,0.13)", marginal: "rgba(230,159,0,0.16)", undecided: "rgba(110,110,110,0.16)" };
+const PARTIAL_COLOUR = "rgba(0,114,178,0.10)"; // known of the followed modes only
 const STRIP_OPACITY = { stable: 1, marginal: 0.4, undecided: 0.15 };
 
 /** Shaded stable ranges of the parameter: of the whole height for one file, a strip at the top for each of several files. */
@@ -172,7 +173,7 @@ function rangeShapes(files) {
   const shapes = [];
   files.forEach((file, row) => {
     for (const range of file.data.ranges || []) {
-      const colour = RANGE_COLOURS[range.kind];
+      const colour = range.whole ? RANGE_COLOURS[range.kind] : PARTIAL_COLOUR;
       const several = files.length > 1;
       const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: STRIP_OPACITY[range.kind] }
         : { y0: 0, y1: 1, fillcolor: colour };

@@ -5,7 +5,7 @@ import numpy as np
 from .curves import DASHED, DOTTED, SOLID, Curves, parts, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
-from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, RANGES, TOO_CLOSE, WARNING, mode_colour,
+from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, PARTIAL_RANGE, RANGES, TOO_CLOSE, WARNING, mode_colour,
                     mode_symbol, number, with_unit)
 
 MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
@@ -242,12 +242,18 @@ class LociFigure:
             if kind in ("fold", "branch_point"):
                 panel.items.append(Line([p, p], [panel.y.low, panel.y.high], GREY, 0.8, "dot", kind))
 
+    def ranges(self):
+        """Per stable range: where it begins and ends, and its colour, opacity and words."""
+        loci = self.loci
+        if "stable_kind" not in loci.variables:
+            return []
+        whole = loci.stable_whole.values if "stable_whole" in loci.variables else np.zeros(loci.stable_kind.shape)
+        return [(begin, end, RANGES.get(kind, (FAINT, 0.2, kind)) if of_all else PARTIAL_RANGE)
+                for kind, of_all, begin, end in zip(loci.stable_kind.values, whole, loci.stable_from.values, loci.stable_to.values)]
+
     def add_ranges(self, panel):
         """Shaded ranges on which no mode grows."""
-        if "stable_kind" not in self.loci.variables:
-            return
-        for kind, begin, end in zip(self.loci.stable_kind.values, self.loci.stable_from.values, self.loci.stable_to.values):
-            colour, opacity, words = RANGES.get(kind, (FAINT, 0.2, kind))
+        for begin, end, (colour, opacity, words) in self.ranges():
             panel.items.append(Span(min(begin, end), max(begin, end), colour, opacity))
             self.explain(Span(0, 0, colour, min(2.2 * opacity, 1.0), legend=words))
 
@@ -268,8 +274,7 @@ class LociFigure:
     def _legend_texts(self, modes):
         loci = self.loci
         texts = [words for kind, (_, words) in EVENTS.items() if kind in set(loci.event_kind.values)]
-        if "stable_kind" in loci.variables:
-            texts += [RANGES[kind][2] for kind in set(loci.stable_kind.values) if kind in RANGES]
+        texts += sorted({words for _, _, (_, _, words) in self.ranges()})
         texts += [] if self.curves.errors(0) is None else [ERROR_WORDS]
         styles = {style for mode in modes for style in self.curves.styles(mode)}
         return texts + [words for style, words in STYLE_WORDS.items() if style in styles]

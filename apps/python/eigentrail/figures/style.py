@@ -12,6 +12,7 @@ GRID = "#e8e8e8"
 
 RANGES = {"stable": ("#009e73", 0.13, "stable"), "marginal": ("#e69f00", 0.16, "marginal"),
           "undecided": ("#6e6e6e", 0.16, "undecided: errors of the data")}
+PARTIAL_RANGE = ("#0072b2", 0.10, "no followed mode grows, others are not known")
 
 # Per kind of event: mark, words of the legend, and whether its label begins with the word.
 EVENTS = {
