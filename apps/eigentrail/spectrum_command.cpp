@@ -27,17 +27,11 @@ struct SpectrumArguments : SceneArguments {
   bool json = false;
 };
 
-/// Real part below which an eigenvalue neither grows nor decays, as far as rounding tells.
-double rounding_of(const OperatingMode& mode) {
-  constexpr double few_roundings = 1e-15;
-  return std::isfinite(mode.condition)
-             ? few_roundings * std::max(mode.condition, 1.0) * natural_frequency(mode)
-             : 0.0;
-}
-
-/// The eigenvalue with a real part within rounding shown as zero.
+/// The eigenvalue, zero where it is or its real part is within rounding.
 Complex shown(const OperatingMode& mode) {
-  return std::abs(mode.s.real()) <= rounding_of(mode) ? Complex(0.0, mode.s.imag()) : mode.s;
+  if (!std::isfinite(mode.rounding)) return mode.s;
+  if (std::abs(mode.s) <= mode.rounding) return 0.0;
+  return std::abs(mode.s.real()) <= mode.rounding ? Complex(0.0, mode.s.imag()) : mode.s;
 }
 
 double in_hertz(double angular) {
@@ -73,6 +67,7 @@ nlohmann::ordered_json json_row(const ShownPoint& point, std::size_t i) {
                              {"damping_ratio", damping_ratio(mode)},
                              {"log_decrement", log_decrement(mode.s)},
                              {"condition", mode.condition},
+                             {"rounding", mode.rounding},
                              {"what_moves", printable(mode.what_moves)}};
   if (point.errors) {
     row["interpolation_error"] = (*point.errors)(static_cast<Eigen::Index>(i), 0);
@@ -124,7 +119,7 @@ std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
   const double decrement = log_decrement(s);
   std::vector<std::string> row{std::to_string(i + 1), complex_text(s.real() + 0.0, s.imag(), 8)};
   if (point.errors) row.push_back(rounded(point.error(i), 2));
-  row.insert(row.end(), {rounded(in_hertz(natural_frequency(mode)), 6), rounded(in_hertz(mode.s.imag()), 6),
+  row.insert(row.end(), {rounded(in_hertz(std::abs(s)), 6), rounded(in_hertz(s.imag()), 6),
                          std::isfinite(ratio) ? rounded(100.0 * ratio + 0.0, 4) + " %" : "-",
                          std::isfinite(decrement) ? rounded(decrement + 0.0, 4) : "-",
                          rounded(mode.condition, 3), cell_text(mode.what_moves)});

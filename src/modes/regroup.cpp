@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/orthonormal.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "modes/ordered_schur.hpp"
 
 namespace eigentrail {
@@ -117,6 +118,11 @@ InvariantPair in_other_chart(const InvariantPair& pair) {
   result.Lambda = pair.Lambda.inverse();
   result.factors.reset();
   return result;
+}
+
+Vector eigenvalue_rounding(const InvariantPair& pair, const ComplexVector& roots, double entries) {
+  return root_errors(block_functions({pair.Lambda}).col(0), roots,
+                     function_rounding(pair.Lambda, entries * pair.rounding));
 }
 
 InvariantPair conjugated(const InvariantPair& pair) {

@@ -76,8 +76,8 @@ double lateral_size(const std::vector<std::array<Complex, 2>>& nodes) {
   return sum;
 }
 
-/// Motion along or about the axis, by the coordinate that moves most.
-ShaftMotion motion_along_the_axis(const Model& model, const ComplexVector& shape) {
+/// Motion of a shaft whose nodes stay on their places, by the coordinate that moves most.
+ShaftMotion motion_on_the_axis(const Model& model, const ComplexVector& shape) {
   Eigen::Index largest = 0;
   const Projection* projection = model.projection();
   const ComplexVector whole =
@@ -85,8 +85,9 @@ ShaftMotion motion_along_the_axis(const Model& model, const ComplexVector& shape
   whole.cwiseAbs().maxCoeff(&largest);
   const std::vector<std::string>& names =
       projection == nullptr ? model.description().coordinate_names : projection->names;
-  return names[static_cast<std::size_t>(largest)].ends_with(": z") ? ShaftMotion::axial
-                                                                   : ShaftMotion::torsion;
+  const std::string& name = names[static_cast<std::size_t>(largest)];
+  if (name.ends_with(": z")) return ShaftMotion::axial;
+  return name.ends_with(": rz") ? ShaftMotion::torsion : ShaftMotion::bending;  // between nodes that are held
 }
 
 int sense_of(const Whirl& whirl) {
@@ -108,6 +109,7 @@ std::string common_name(const RotorMode& mode) {
                                                            {ShaftMotion::axial, "axial"},
                                                            {ShaftMotion::torsion, "torsion"}};
   const std::string& word = words.at(mode.motion);
+  if (mode.is_zero) return "rigid-body " + word;
   if (!mode.oscillates) return "overdamped " + word;
   if (mode.motion == ShaftMotion::axial || mode.motion == ShaftMotion::torsion) return word;
   if (mode.sense == 1) return "forward " + word;
@@ -118,8 +120,10 @@ std::string common_name(const RotorMode& mode) {
 
 }  // namespace
 
-RotorMode rotor_mode(const Model& model, const Vector& parameters, Complex s, const ComplexVector& shape) {
+RotorMode rotor_mode(const Model& model, const Vector& parameters, Complex s, const ComplexVector& shape,
+                     double rounding) {
   RotorMode mode;
+  mode.is_zero = std::abs(s) <= rounding;
   mode.frequency = std::abs(s);
   mode.oscillates = s.imag() != 0.0;
   const std::vector<SpinningShaft>& shafts = model.description().shafts;
@@ -135,7 +139,7 @@ RotorMode rotor_mode(const Model& model, const Vector& parameters, Complex s, co
   }
   constexpr double nothing = 1e-20;  // squares of rounding
   if (!(most > nothing * shape.squaredNorm())) {
-    mode.motion = motion_along_the_axis(model, shape);
+    mode.motion = motion_on_the_axis(model, shape);
     return mode;
   }
   mode.motion = motion_of(shafts[static_cast<std::size_t>(mode.shaft)], main_displacement(nodes));

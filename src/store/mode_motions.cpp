@@ -81,7 +81,7 @@ void ModeMotions::describe_rotor_modes(const TracePoint& point) {
     const auto known = rotor_modes_.find(number);
     if (known != rotor_modes_.end() && known->second.sense != 0) continue;
     if (!std::isfinite(std::abs(mode.s)) || !mode.shape.allFinite()) continue;
-    const RotorMode now = rotor_mode(*model_, parameters, mode.s, mode.shape);
+    const RotorMode now = rotor_mode(*model_, parameters, mode.s, mode.shape, mode.rounding);
     if (known == rotor_modes_.end()) {
       rotor_modes_[number] = now;
     } else if (now.oscillates && known->second.oscillates) {

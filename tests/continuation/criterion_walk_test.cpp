@@ -27,10 +27,12 @@ struct Lines {
   Step step;
 };
 
+const RoundingThresholds default_rounding;
+
 TEST(CriteriaOnStep, GivesTheEigenvaluesOfTheDenseOutput) {
   Lines lines;
   const HermiteInterpolant excitation = no_excitation();
-  CriteriaOnStep on_step(lines.step, 0, excitation);
+  CriteriaOnStep on_step(lines.step, 0, excitation, default_rounding);
   EXPECT_EQ(on_step.begin(), 0.0);
   EXPECT_LT(on_step.rounding(0, 0.5), 1e-12);
   for (const double t : {0.0, 0.3, 1.0}) {
@@ -40,17 +42,6 @@ TEST(CriteriaOnStep, GivesTheEigenvaluesOfTheDenseOutput) {
   EXPECT_LT(std::abs(on_step.member_near(0, 1.7) - 2.2 * j), 1e-12) << "the nearest end";
   const Criterion twice{EventKind::resonance, 0.0};
   EXPECT_NEAR(on_step.value(twice, 0, 0.5), 2.1, 1e-12) << "Im s minus no excitation";
-}
-
-TEST(AxisWidth, GrowsWithTheConditionUpToItsLimit) {
-  const CriterionThresholds thresholds;
-  Track track;
-  track.pair.condition = 1.0;
-  const double good = axis_width(thresholds, track);
-  track.pair.condition = 1e3;
-  EXPECT_GT(axis_width(thresholds, track), 100.0 * good);
-  track.pair.condition = 1e30;
-  EXPECT_EQ(axis_width(thresholds, track), thresholds.on_axis);
 }
 
 /// s^2 + 2 d s + 4 with d = 0.02 + 0.3 (p - 0.1)^2 - level.
@@ -70,7 +61,7 @@ struct Bending {
     const PathNode left = planted.family.point(0.0, alone({root(0.0)}));
     const Step step = planted.step(left, 0.25, alone({root(0.25)}));
     const HermiteInterpolant excitation = no_excitation();
-    CriteriaOnStep on_step(step, 0, excitation);
+    CriteriaOnStep on_step(step, 0, excitation, default_rounding);
     return locate(planted.search, step, on_step, {0, 0}, target, t, found);
   }
   double level;
@@ -127,7 +118,7 @@ Located locate_on(const PlantedOscillator& planted, const Step& step, const Crit
   ComplexMatrix constant = ComplexMatrix::Zero(1, 2);
   constant(0, 0) = excitation;
   const HermiteInterpolant interpolant(step.h, constant, constant);
-  CriteriaOnStep on_step(step, 0, interpolant);
+  CriteriaOnStep on_step(step, 0, interpolant, default_rounding);
   Located located;
   located.done = locate(planted.search, step, on_step, {0, 0}, target, t, located.found);
   return located;
@@ -270,7 +261,7 @@ TEST(Locate, IsMoreAccurateThanTheDenseOutput) {
   const Step step = planted.single(0.0, 0.9);
   const Criterion criterion{EventKind::damping_ratio, 0.1 / std::sqrt(1.5)};
   const HermiteInterpolant none(step.h, ComplexMatrix::Zero(1, 2), ComplexMatrix::Zero(1, 2));
-  CriteriaOnStep on_step(step, 0, none);
+  CriteriaOnStep on_step(step, 0, none, default_rounding);
   double from = 0.0, to = 1.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (from + to);
@@ -294,7 +285,7 @@ TEST(CriteriaOnStep, BeginsWhereEigenvaluesCanBeDistinguished) {
   planted.left.tracks[0].departure = Track::Departure{1e-4, ComplexVector{{-0.49, -0.51}}};
   const Step step = planted.step(planted.left, 0.85, both(0.85));
   const HermiteInterpolant none(step.h, ComplexMatrix::Zero(1, 2), ComplexMatrix::Zero(1, 2));
-  CriteriaOnStep on_step(step, 0, none);
+  CriteriaOnStep on_step(step, 0, none, default_rounding);
   EXPECT_NEAR(on_step.begin(), 1e-3, 1e-12);
   // The roots differ by 2 sqrt(p - 0.75), so that their error is that of the square over this.
   EXPECT_GT(on_step.rounding(0, 0.0), 1e-9);

@@ -95,7 +95,12 @@ TEST_P(PairOfFamily, ResidualsMoveTheEigenvalueByTheLeftVector) {
     }
     const double scale = left.norm() * point.magnitude(std::abs(pair.eigenvalue()));
     EXPECT_LT((left * point.matrix(pair.eigenvalue())).norm(), 1e-13 * scale);
-    EXPECT_NEAR(pair.factors->sensitivity(), left.norm(), tolerance * left.norm());
+    const Vector terms = point.terms(pair.Z, pair.Lambda);
+    const PairSensitivity found = pair.factors->sensitivity(terms);
+    const double by_terms = left.cwiseAbs() * terms;
+    EXPECT_NEAR(found.to_residual, left.norm(), tolerance * left.norm());
+    EXPECT_NEAR(found.to_terms, by_terms, tolerance * by_terms);
+    EXPECT_NEAR(pair.rounding, std::numeric_limits<double>::epsilon() * by_terms, 1e-6 * pair.rounding);
   }
 }
 

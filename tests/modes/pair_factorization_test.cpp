@@ -89,12 +89,15 @@ TEST_P(SingleModeFactors, SensitivityIsThatOfTheSolutions) {
   const PencilAtPoint pencil(family);
   const PairFactorization factors(pencil, z, ComplexMatrix::Constant(1, 1, GetParam().s), W);
   ComplexMatrix dZ, ds;
-  double square = 0.0;
+  const Vector terms = Vector::LinSpaced(n, 0.1, 2.0);
+  double square = 0.0, sum = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
     factors.solve(ComplexVector::Unit(n, i), ComplexMatrix::Zero(1, 1), dZ, ds);
     square += std::norm(ds(0, 0));
+    sum += terms[i] * std::abs(ds(0, 0));
   }
-  EXPECT_NEAR(factors.sensitivity() / std::sqrt(square), 1.0, tolerance);
+  EXPECT_NEAR(factors.sensitivity(terms).to_residual / std::sqrt(square), 1.0, tolerance);
+  EXPECT_NEAR(factors.sensitivity(terms).to_terms / sum, 1.0, tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(

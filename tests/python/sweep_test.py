@@ -120,6 +120,42 @@ class Gradients(unittest.TestCase):
         self.assertAlmostEqual(gradient["a"], 1.0, places=6)
         self.assertEqual(list(gradient.index), ["a"])
 
+    def test_of_nearly_equal_minima(self):
+        """damping 0.2 + 0.1 (cos 40 p + 1e-4 p): of six minima the first one is the least, by 1.6e-6."""
+        scene = """[trace]
+        parameter = "p"
+        from = 0
+        to = 1
+        tolerance = 1e-10
+        [matrix_family]
+        M = [[[1]]]
+        C = [[["2*(0.2 + 0.1*(cos(40*p) + 1e-4*p))"]]]
+        K = [[[1]]]
+        """
+        at = np.linspace(0, 1, 2_000_001)
+        exact = 0.2 + 0.1 * (np.cos(40 * at) + 1e-4 * at)
+        least = et.least_damping(et.trace(scene))
+        self.assertAlmostEqual(least.value, exact.min(), delta=1e-9)
+        self.assertAlmostEqual(least.at, at[exact.argmin()], delta=1e-4)
+
+    def test_of_a_mode_that_is_double_for_all_parameters(self):
+        """Two equal freedoms, s^2 + k = 0: both have ds/dk = 1j/(2 sqrt(k)). Coupled by c they separate: none has a derivative."""
+        scene = """[parameters]
+        k = 4
+        c = 0
+        p = 0
+        [trace]
+        parameter = "p"
+        from = 0
+        to = 1
+        [matrix_family]
+        M = [[[1, 0], [0, 1]]]
+        K = [[["k + p", "c"], ["c", "k + p"]]]
+        """
+        slope = et.gradient(et.trace(scene), "frequency", mode="mode 1", p=0.5)
+        self.assertAlmostEqual(slope["k"], 0.5 / np.sqrt(4.5), places=9)
+        self.assertTrue(np.isnan(slope["c"]))
+
     def test_of_a_family_in_memory(self):
         family = et.Family(M=np.eye(2), K={0: np.diag([1.0, 3.0]), "k": np.array([[1.0, 0.2], [0.2, 0.0]]), 1: np.eye(2)},
                            parameter="p", factors={"k": "k"}, parameters={"k": 0.5})

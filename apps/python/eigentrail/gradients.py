@@ -82,22 +82,35 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     path = np.unique(loci[parameter].values)
     share = np.linspace(0.0, 1.0, SAMPLES_PER_STEP, endpoint=False)
     places = np.append((path[:-1, np.newaxis] + np.diff(path)[:, np.newaxis] * share).ravel(), path[-1])
-    best: Optional[Least] = None
     labels = [str(label) for label in loci.mode.values]
-    for _ in range(6):  # each time sixteen times closer: the minimum is flat, so its value is then exact to rounding
-        ratio = loci.eigentrail.sel(**{parameter: places}).damping_ratio
-        if mode is not None:
-            ratio = ratio[..., [labels.index(_label(loci, mode))]]
-        values = ratio.values.reshape(len(places), -1)
-        if not np.isfinite(values).any():
-            raise SceneError("no mode has a damping ratio on this range")
-        row, column = divmod(int(np.nanargmin(values)), values.shape[1])
-        label = str(ratio.mode.values[column % ratio.sizes["mode"]])
-        best = Least(float(values[row, column]), float(places[row]), labels.index(label))
-        low, high = places[max(row - 1, 0)], places[min(row + 1, len(places) - 1)]
-        places = np.linspace(low, high, 2 * SAMPLES_PER_STEP + 1)
-    assert best is not None
-    return best
+    wanted = slice(None) if mode is None else [labels.index(_label(loci, mode))]
+
+    def ratios(at: Any) -> Any:
+        """Damping ratios at places: places x modes of all passages of the path, and the numbers of the modes."""
+        ratio = loci.eigentrail.sel(**{parameter: at}).damping_ratio[..., wanted]
+        modes = np.resize([labels.index(str(label)) for label in ratio.mode.values], ratio.size // len(at))
+        return ratio.values.reshape(len(at), -1), modes
+
+    def refined(row: int, column: int) -> Least:
+        at = places
+        for _ in range(5):  # each time sixteen times closer: the minimum is flat, so its value is then exact to rounding
+            at = np.linspace(at[max(row - 1, 0)], at[min(row + 1, len(at) - 1)], 2 * SAMPLES_PER_STEP + 1)
+            values, modes = ratios(at)
+            row = int(np.nanargmin(values[:, column]))
+        return Least(float(values[row, column]), float(at[row]), int(modes[column]))
+
+    values, _ = ratios(places)
+    if not np.isfinite(values).any():
+        raise SceneError("no mode has a damping ratio on this range")
+    # Local minima of the samples. Between its neighbours a minimum is lower than its sample by less than these are higher.
+    filled = np.where(np.isfinite(values), values, np.inf)
+    edge = np.full((1, values.shape[1]), np.inf)
+    before, behind = np.vstack([edge, filled[:-1]]), np.vstack([filled[1:], edge])
+    neighbours = [np.where(np.isfinite(side), side, filled) for side in (before, behind)]
+    with np.errstate(invalid="ignore"):
+        lowest = filled - (np.maximum(*neighbours) - filled)
+    may_be = np.isfinite(values) & (values <= before) & (values <= behind) & (lowest <= np.nanmin(values))
+    return min((refined(int(row), int(column)) for row, column in np.argwhere(may_be)), key=lambda least: least.value)
 
 
 def _label(loci: xarray.Dataset, mode: Any) -> str:

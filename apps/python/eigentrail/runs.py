@@ -15,7 +15,6 @@ from .given import Attached, Given, Source, give, number, option_text
 from .progress import Bar, Progress
 
 Options = list[tuple[str, str]]
-FEW_ROUNDINGS = 1e-15  # relative rounding of a well-conditioned eigenvalue
 
 
 def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
@@ -198,7 +197,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     table = pandas.DataFrame([{key: value for key, value in row.items() if key != "mode_shape"} for row in found["rows"]])
     if table.empty:
         return table
-    s = _without_rounding(table["eigenvalue"].to_numpy(complex), table["condition"].to_numpy(float))
+    s = _without_rounding(table["eigenvalue"].to_numpy(complex), table["rounding"].to_numpy(float))
     with np.errstate(invalid="ignore"):
         ratio = -s.real / np.abs(s)
     table.insert(3, "natural_frequency", np.abs(s))
@@ -282,11 +281,10 @@ def _begin(given: Given) -> float:
     raise SceneError("expected at=, the value of the parameter")
 
 
-def _without_rounding(s: Any, condition: Any) -> Any:
-    """Eigenvalues in which a real part within rounding is zero, as the program shows them."""
-    finite = np.isfinite(condition)
-    rounding = np.where(finite, FEW_ROUNDINGS * np.maximum(np.where(finite, condition, 1.0), 1.0) * np.abs(s), 0.0)
-    return np.where(np.abs(s.real) <= rounding, 1j * s.imag, s)
+def _without_rounding(s: Any, rounding: Any) -> Any:
+    """Eigenvalues that are zero, or have a real part of zero, where these are within rounding, as the program shows them."""
+    known = np.where(np.isfinite(rounding), rounding, 0.0)
+    return np.where(np.abs(s) <= known, 0.0, np.where(np.abs(s.real) <= known, 1j * s.imag, s))
 
 
 def _result(given: Given, outcome: Any) -> xarray.Dataset:

@@ -45,7 +45,7 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
       const OperatingMode& mode = points[k].modes[i];
       py::dict row("parameter"_a = points[k].p, "mode"_a = i + 1, "eigenvalue"_a = mode.s,
                    "what_moves"_a = mode.what_moves, "condition"_a = mode.condition,
-                   "mode_shape"_a = mode.shape);
+                   "rounding"_a = mode.rounding, "mode_shape"_a = mode.shape);
       if (errors[k]) {
         row["interpolation_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 0);
         row["digits_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 1);

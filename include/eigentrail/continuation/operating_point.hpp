@@ -13,6 +13,7 @@ struct OperatingMode {
   Complex s;               ///< 1/s; of a complex pair the member with Im s > 0
   double condition = 0.0;  ///< relative condition number; infinite where the eigenvalue is defective
   double backward_error = 0.0;
+  double rounding = 0.0;  ///< error of s by rounding of the entries of the matrices, 1/s; infinite if not known
   ComplexVector shape;     ///< physical coordinates, of unit length
   std::string what_moves;  ///< "blade flap", or the coordinates that take part most: "q3 71 %, q4 24 %"
 };
@@ -29,7 +30,8 @@ struct OperatingPoint {
 };
 
 /// The chosen modes (`modes` of the options) at values of the traced parameter, in its unit. Each equilibrium
-/// starts from the last one found. Cost: a spectrum by QZ and an LU per mode, for each value.
+/// starts from the last one found. Cost: a spectrum by QZ and two LU per mode, for each
+/// value.
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values);
 
 }  // namespace eigentrail

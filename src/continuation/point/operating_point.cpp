@@ -4,13 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/model/projection.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/participation.hpp"
+#include "eigentrail/modes/regroup.hpp"
 #include "eigentrail/modes/rotor_names.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
@@ -24,17 +27,13 @@ constexpr double zero_share = 1e-9;
 /// An eigenvalue s with its right vector, and what follows from the left one.
 class ModeAtPoint {
  public:
-  /// `s` and `z` are those of QZ; the eigenvalue is improved by a Rayleigh quotient.
+  /// `z` is that of QZ.
   ModeAtPoint(const ReducedPencil& pencil, Complex s, const ComplexVector& z, double scale)
       : M_(pencil.M[0]), C_(pencil.C[0]), K_(pencil.K[0]), s_(s), z_(z.normalized()) {
     const double s_ref = zero_share * scale;
     left_ = eigenvector_near(M_.transpose(), C_.transpose(), K_.transpose(), s_, s_ref);  // y^T P(s) = 0
     slope_ = 2.0 * s_ * (M_ * z_) + C_ * z_;
     const Complex product = left_.transpose() * slope_;
-    const Complex residual = left_.transpose() * force();
-    const Complex better = s_ - residual / product;
-    const bool is_close = std::abs(better - s_) <= 1e-6 * std::max(std::abs(s_), s_ref);
-    if (is_close) s_ = s_.imag() == 0.0 ? Complex(better.real()) : better;
     const double magnitude = std::norm(s_) * M_.norm() + std::abs(s_) * C_.norm() + K_.norm();
     backward_error_ = magnitude > 0.0 ? force().norm() / magnitude : 0.0;
     condition_ = magnitude * left_.norm() / (std::abs(product) * std::max(std::abs(s_), s_ref));
@@ -42,7 +41,7 @@ class ModeAtPoint {
       condition_ = std::numeric_limits<double>::infinity();
   }
 
-  OperatingMode mode() const { return {s_, condition_, backward_error_, {}, {}}; }
+  OperatingMode mode(double rounding) const { return {s_, condition_, backward_error_, rounding, {}, {}}; }
 
   /// By how much each equation and its coordinate take part in the mode, as shares.
   Vector shares() const { return participation(left_, slope_, z_, std::isfinite(condition_)); }
@@ -55,6 +54,34 @@ class ModeAtPoint {
   ComplexVector z_, left_, slope_;
   double condition_ = 0.0, backward_error_ = 0.0;
 };
+
+/// Refines the first `n` eigenvalues of a spectrum by Newton's method, close ones together: QZ is accurate relative
+/// to the largest ones only. Returns their errors by rounding, 1/s.
+std::vector<double> refine(const ReducedPencil& pencil, int n, Spectrum& spectrum) {
+  const double s_ref = zero_share * spectrum.scale;
+  std::vector<double> rounding(static_cast<std::size_t>(n), std::numeric_limits<double>::infinity());
+  ModeCounts counts;
+  for (const StartingGroup& group : starting_groups(pencil, spectrum.modes, n, s_ref)) {
+    const InvariantPair pair =
+        correct_pair(PencilAtPoint(pencil.of(group.pair.part)), group.pair, s_ref, CorrectorOptions(), counts);
+    if (pair.status != PairStatus::converged) continue;
+    const ComplexVector roots = in_order_of(group.roots, pair_eigenvalues(pair));
+    const Vector errors = eigenvalue_rounding(pair, roots, Thresholds().rounding.entries);
+    for (Eigen::Index i = 0; i < roots.size(); ++i) {
+      const int mode = group.modes[static_cast<std::size_t>(i)];
+      if (mode < 0) continue;
+      spectrum.modes[static_cast<std::size_t>(mode)].s = roots[i].imag() < 0.0 ? std::conj(roots[i]) : roots[i];
+      rounding[static_cast<std::size_t>(mode)] = errors[i];
+    }
+  }
+  // A mode of a copy is behind the one that it equals.
+  for (std::size_t i = 1; i < rounding.size(); ++i) {
+    if (spectrum.modes[i].copy == 0) continue;
+    spectrum.modes[i].s = spectrum.modes[i - 1].s;
+    rounding[i] = rounding[i - 1];
+  }
+  return rounding;
+}
 
 /// Names the modes by their kinetic energy, where the masses are known.
 void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector<OperatingMode>& modes) {
@@ -79,7 +106,7 @@ void name_by_shafts(const TraceSetup& setup, double p, std::vector<OperatingMode
   const Vector parameters = setup.parameters_at(p);
   std::vector<RotorMode> described;
   for (const OperatingMode& mode : modes)
-    described.push_back(rotor_mode(*setup.model, parameters, mode.s, mode.shape));
+    described.push_back(rotor_mode(*setup.model, parameters, mode.s, mode.shape, mode.rounding));
   const std::vector<std::string> names = rotor_mode_names(described, shafts);
   for (std::size_t i = 0; i < modes.size(); ++i) modes[i].what_moves = names[i];
 }
@@ -101,7 +128,9 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
     return result;
   }
   const ModeChoice& choice = setup.options.modes;
-  spectrum.modes.resize(static_cast<std::size_t>(choose_modes(choice, spectrum.modes)));
+  const int wanted = choose_modes(choice, spectrum.modes);
+  const std::vector<double> rounding = refine(point.pencil, wanted, spectrum);
+  spectrum.modes.resize(static_cast<std::size_t>(wanted));
   if (spectrum.modes.size() == 1 && !choice.wants(spectrum.modes.front().s))
     result.note = "none of " + in_words(choice) + "; the mode that misses this least is shown";
   const ModelDescription& description = setup.model->description();
@@ -111,10 +140,11 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
       unconstrained
           ? ReducedPencil{{physical.M[0].dense()}, {physical.C[0].dense()}, {physical.K[0].dense()}, {}}
           : point.pencil;
-  for (const StartingMode& start : spectrum.modes) {
+  for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
+    const StartingMode& start = spectrum.modes[i];
     const ComplexVector shape = point.basis.shapes(start.z, start.part, start.copy).col(0);
     const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
-    OperatingMode& mode = result.modes.emplace_back(at.mode());
+    OperatingMode& mode = result.modes.emplace_back(at.mode(rounding[i]));
     mode.shape = shape.normalized();
     const Projection* projection = setup.model->projection();
     if (projection != nullptr && projection->is_of_family()) {

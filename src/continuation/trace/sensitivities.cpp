@@ -1,6 +1,8 @@
 #include "eigentrail/continuation/sensitivities.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/singular_vectors.hpp"
@@ -11,47 +13,51 @@
 namespace eigentrail {
 namespace {
 
-/// Relative size below which a quantity counts as zero, so that an eigenvalue s of P(s) = s^2 M + s C + K is
-/// multiple and has no derivative:
-///  - y* P'(s) z relative to |P'(s)|, with unit eigenvectors z and y: s is defective;
-///  - the second smallest singular value of P(s) relative to the largest one: s is semisimple, and its
-///    eigenvectors are not unique.
+/// Relative size below which a quantity counts as zero:
+///  - singular values of P(s) = s^2 M + s C + K relative to the largest one: their vectors span the kernel;
+///  - the determinant of Y* P'(s) Z, of the kernel's vectors, relative to |P'(s)|: s is defective;
+///  - how much the derivatives of the members of a semisimple eigenvalue differ, relative to their size: the members
+///    separate with the parameter, and none of them has a derivative of its own.
 /// It is the square root of rounding, the accuracy of a double eigenvalue. With a larger value close but
-/// different eigenvalues get no derivative, with a smaller one the derivative may be dominated by rounding.
+/// different eigenvalues are taken for one, with a smaller one the derivative may be dominated by rounding.
 constexpr double multiple = 1e-8;
+/// For the third of these: the derivative of the vectors of a kernel is known to that root only.
+constexpr double alike = 1e-6;
 
-/// An eigenvalue with its right and left eigenvector.
+/// An eigenvalue with the vectors of its kernel.
 struct ModeVectors {
   Complex s;
-  ComplexVector right, left;
-  Complex denominator;  ///< y* P'(s) z
-  double magnitude;     ///< |P'(s)| (Frobenius), the scale of the denominator
-  bool is_simple;       ///< the kernel of P(s) has one dimension
+  ComplexMatrix right, left;  ///< n x m
+  ComplexMatrix slope;        ///< Y* P'(s) Z, m x m
+  double magnitude;           ///< |P'(s)| (Frobenius), the scale of the slope
 };
 
 ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
   const ComplexMatrix P = s * s * pencil.M[0] + s * pencil.C[0] + pencil.K[0];
   const ComplexMatrix derivative = 2.0 * s * pencil.M[0] + pencil.C[0].cast<Complex>();
   const SingularVectors<ComplexMatrix> svd = singular_vectors(P);
-  const Eigen::Index last = P.cols() - 1;
-  const ComplexVector z = svd.V.col(last);
-  const ComplexVector y = svd.U.col(last);
-  const bool is_simple = last == 0 || svd.values[last - 1] > multiple * svd.values[0];
-  return {s, z, y, y.dot(derivative * z), derivative.norm(), is_simple};
+  const Eigen::Index m =
+      std::max<Eigen::Index>(1, (svd.values.array() <= multiple * svd.values[0]).count());
+  const ComplexMatrix Z = svd.V.rightCols(m), Y = svd.U.rightCols(m);
+  return {s, Z, Y, Y.adjoint() * derivative * Z, derivative.norm()};
 }
 
-/// ds/de = -y* (s^2 M_e + s C_e + K_e) z / (y* P'(s) z) from the coefficients of order 1 of the pencil's
-/// series in e; NaN at a multiple eigenvalue.
+/// ds/de = -y* (s^2 M_e + s C_e + K_e) z / (y* P'(s) z) from the coefficients of order 1 of the pencil's series in e;
+/// of a semisimple eigenvalue, that of all its members. NaN where the eigenvalue is defective or they separate.
 Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
   const auto along = [](const MatrixSeries& series, Eigen::Index n) -> Matrix {
     return series.size() > 1 ? series[1] : Matrix(Matrix::Zero(n, n));
   };
-  if (!mode.is_simple || !(std::abs(mode.denominator) > multiple * mode.magnitude))
-    return std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Index n = pencil.size();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Index m = mode.slope.rows(), n = pencil.size();
+  const Eigen::FullPivLU<ComplexMatrix> slope(mode.slope);
+  if (!(std::abs(slope.determinant()) > multiple * std::pow(mode.magnitude, m))) return {nan, nan};
   const ComplexMatrix change =
       mode.s * mode.s * along(pencil.M, n) + mode.s * along(pencil.C, n) + along(pencil.K, n);
-  return -mode.left.dot(change * mode.right) / mode.denominator;
+  const ComplexMatrix of_members = -slope.solve(mode.left.adjoint() * change * mode.right);
+  const Complex mean = of_members.trace() / static_cast<double>(m);
+  const double difference = (of_members - mean * ComplexMatrix::Identity(m, m)).norm();
+  return m > 1 && difference > alike * of_members.norm() ? Complex(nan, nan) : mean;
 }
 
 }  // namespace

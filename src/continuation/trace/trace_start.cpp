@@ -328,9 +328,7 @@ void Start::lower_reference() {
   for (const InvariantPair& pair : point_.pairs) {
     if (pair.chart != Chart::finite) continue;
     const ComplexVector s = pair_eigenvalues(pair);
-    const ComplexVector functions = block_functions({pair.Lambda}).col(0);
-    const Vector errors = root_errors(
-        functions, s, function_rounding(pair.Lambda, problem_.thresholds.rounding.entries * pair.rounding));
+    const Vector errors = eigenvalue_rounding(pair, s, problem_.thresholds.rounding.entries);
     for (Eigen::Index i = 0; i < s.size(); ++i) {
       if (oscillates(s[i]) && std::abs(s[i]) > errors[i]) slowest = std::min(slowest, std::abs(s[i]));
     }

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 
@@ -36,7 +37,7 @@ Vector rounding_of_roots(const Track& track, const ComplexVector& functions, con
 }
 
 Vector rounding_of_roots(const Track& track, const RoundingThresholds& thresholds) {
-  return rounding_of_roots(track, track.functions.col(0), track.roots, thresholds);
+  return eigenvalue_rounding(track.pair, track.roots, thresholds.entries);
 }
 
 }  // namespace eigentrail

@@ -1,0 +1,166 @@
+"""What the program says about models whose stability is known in closed form: stable ranges of the whole model, onsets of
+instability, what is zero, and names."""
+
+import csv
+import io
+import json
+import math
+import pathlib
+import unittest
+
+import numpy as np
+
+from command_test_case import CommandTest
+
+MODELS = pathlib.Path(__file__).parent / "models"
+
+
+class VerdictTest(CommandTest):
+    def trace_model(self, name, *options, output="loci.h5"):
+        self.run_well("trace", MODELS / f"{name}.toml", "-o", output, "--quiet", "--force", *options)
+        return self.folder / output
+
+    def info(self, file):
+        return json.loads(self.run_well("info", file, "--json"))
+
+    def ranges(self, file):
+        """Per stable range: kind, where it begins and ends."""
+        return [(entry["kind"], entry["from"]["parameter"], entry["to"]["parameter"]) for entry in self.info(file)["stable_ranges"]]
+
+    def events(self, file, *kinds):
+        rows = list(csv.DictReader(io.StringIO(self.run_well("events", file, "--csv"))))
+        return [row for row in rows if not kinds or row["kind"] in kinds]
+
+    def places(self, file, *kinds):
+        return sorted(float(row["parameter"]) for row in self.events(file, *kinds))
+
+
+class WholeModel(VerdictTest):
+    def test_a_blade_diverges_in_a_mode_that_is_not_followed(self):
+        # V = pi/(2 L) sqrt(GJ / (rho/2 2 pi c e)): a uniform wing held at its root, lift at the quarter chord. Eight elements
+        # are 2e-6 too stiff.
+        length, GJ, density, chord, offset = 0.55, 7.20, 1.225, 0.1, 0.01914
+        divergence = math.pi / (2 * length) * math.sqrt(GJ / (0.5 * density * 2 * math.pi * chord * offset))
+        file = self.trace_model("divergent_blade", "--from", 80, "--to", 95)
+        (kind, begin, end), = self.ranges(file)
+        self.assertEqual((kind, begin), ("stable", 80.0))
+        self.assertAlmostEqual(end / divergence, 1.0, delta=1e-5)
+        self.assertTrue(self.info(file)["stable_ranges"][0]["whole_model"])
+        growing = [s for _, _, s in self.eval_rows(file, [94.0]) if s.real > 0]
+        self.assertTrue(any(s.imag == 0 for s in growing), "the motion that diverges is followed from its zero on")
+
+    def test_the_slowest_modes_of_a_graded_family_tell_what_others_do(self):
+        # Two followed modes of three freedoms; the third one, far stiffer, flutters: s^2 - 2 (p - 1) s + 1e8 = 0.
+        scene = """
+[trace]
+parameter = "p"
+from = 0
+to = 3
+modes = 2
+[matrix_family]
+M = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+C = [[[0.1, 0, 0], [0, 0.2, 0], [0, 0, "-2*(p-1)"]]]
+K = [[[1, 0, 0], [0, 4, 0], [0, 0, 1e8]]]
+"""
+        file = self.trace(scene)
+        (kind, begin, end), = self.ranges(file)
+        self.assertEqual((kind, begin), ("stable", 0.0))
+        self.assertAlmostEqual(end, 1.0, delta=1e-9)
+        flutter, = self.events(file, "flutter")
+        self.assertAlmostEqual(float(flutter["imag"]), 1e4, delta=1e-6)
+
+    def test_a_growing_mode_is_followed_from_the_start(self):
+        scene = """
+[trace]
+parameter = "p"
+from = 0
+to = 1
+modes = 1
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[[0.1, 0], [0, "0.2*(p - 0.5)"]]]
+K = [[[1, 0], [0, 9]]]
+"""
+        file = self.trace(scene)
+        (kind, begin, end), = self.ranges(file)
+        self.assertEqual((kind, end), ("stable", 1.0))
+        self.assertAlmostEqual(begin, 0.5, delta=1e-9)
+
+
+class Zeros(VerdictTest):
+    def test_a_slow_divergence_beside_a_stiff_mode(self):
+        # s^2 + c s + 1e-6 (p - 0.5) = 0 beside a mode of 1e5 rad/s.
+        file = self.trace_model("slow_beside_stiff")
+        (kind, begin, end), = self.ranges(file)
+        self.assertEqual((kind, end), ("stable", 1.0))
+        self.assertAlmostEqual(begin, 0.5, delta=1e-9)
+        self.assertEqual(self.places(file, "divergence"), [begin])
+        for p in (0.0, 0.3, 0.9):
+            exact = np.roots([1.0, 1e-3, 1e-6 * (p - 0.5)])
+            found = np.array([s for _, _, s in self.eval_rows(file, [p]) if abs(s) < 1.0])
+            for s in found:
+                self.assertLess(np.abs(exact - s).min(), 1e-9)
+
+    def test_its_map(self):
+        self.run_well("map", MODELS / "slow_beside_stiff_map.toml", "--second", "c", "--from", 1e-4, "--to", 1e-3, "--grid", "2x21",
+                      "-o", "map.h5", "--quiet")
+        file = self.open("map.h5")
+        p, growing = file["p"][:], file["unstable"][:]
+        np.testing.assert_array_equal(growing > 0, np.broadcast_to(p < 0.5, growing.shape))
+
+    def test_a_shaft_without_mass_has_the_modes_of_its_disc(self):
+        file = self.trace_model("massless_shaft")
+        rpm = 2 * math.pi / 60
+        oscillating = [np.sort([s.imag / rpm for _, _, s in self.eval_rows(file, [speed]) if s.imag > 0]) for speed in (0.0, 23600.0)]
+        np.testing.assert_allclose(oscillating[0], [1489.695, 1489.695, 5769.56, 5769.56], rtol=1e-5)
+        np.testing.assert_allclose(oscillating[1], [1489.695, 1489.695, 2352.14, 14152.1], rtol=1e-5)
+        resonances = self.places(file, "resonance")
+        np.testing.assert_allclose(resonances, [1489.695, 1489.695, 4710.829, 8159.3955], rtol=1e-6)
+        names = [name for name in self.info(file)["mode_names"] if "overdamped" not in name]
+        self.assertEqual(sorted(names), ["backward conical", "backward cylindrical", "forward conical", "forward cylindrical"])
+
+    def test_yaw_of_a_rolling_disc_is_zero_twice(self):
+        file = self.trace_model("rolling_disc", "--tolerance", 1e-8)
+        spin, = {round(place, 9) for place in self.places(file, "divergence", "collision")}
+        self.assertAlmostEqual(spin, math.sqrt(9.81 / 0.9), delta=1e-8)
+        r, g = 0.3, 9.81
+        lean = math.sqrt(abs(g * r - 3 * r * r * 49.0) / (1.25 * r * r))
+        found = sorted((abs(s) for _, _, s in self.eval_rows(file, [7.0])))
+        self.assertAlmostEqual(found[-1], lean, delta=1e-7)
+        self.assertLess(max(found[:-1]), 1e-12)
+
+
+class Undamped(VerdictTest):
+    def test_a_conservative_column_does_not_flutter(self):
+        file = self.trace_model("undamped_column")
+        self.assertEqual(self.events(file, "flutter", "divergence", "collision"), [])
+        self.assertEqual([kind for kind, _, _ in self.ranges(file)], ["marginal"])
+
+    def test_two_frequencies_that_meet_are_an_onset_of_flutter(self):
+        # The closed form of Beck is 20.0509; ten elements are 4e-4 too stiff.
+        file = self.trace_model("follower_force_column", "--from", 18, "--modes", 4)
+        onset, = self.places(file, "collision")
+        self.assertAlmostEqual(onset, 20.0582493727, delta=1e-6)
+        self.assertEqual(self.events(file, "flutter", "divergence"), [])
+        self.assertEqual([kind for kind, _, _ in self.ranges(file)], ["marginal"])
+        self.assertEqual(self.ranges(file)[0][2], onset)
+        text = self.run_well("events", file)
+        self.assertIn("unstable above", text)
+
+    def test_no_divergence_beside_a_collision_of_opposite_signs_of_energy(self):
+        file = self.trace_model("indefinite_mass")
+        self.assertEqual(self.events(file, "divergence", "flutter"), [])
+        self.assertEqual(len(self.events(file, "collision")), 3)
+
+    def test_equal_modes_do_not_cross(self):
+        self.assertEqual(self.events(self.trace_model("trifilar")), [])
+
+
+class Names(VerdictTest):
+    def test_without_torsion_nothing_is_called_so(self):
+        names = self.info(self.trace_model("pinned_shaft"))["mode_names"]
+        self.assertTrue(all("torsion" not in name and "bending" in name for name in names), names)
+
+
+if __name__ == "__main__":
+    unittest.main()
