@@ -39,6 +39,7 @@ const SampleErrors* errors_along(const Model& model, const TraceOptions& options
 struct ErrorsAt {
   double p = 0.0;
   Vector interpolation, rough, digits;
+  Vector growth, rough_growth;  ///< interpolation and rough of Re s
   Vector distance;  ///< of each eigenvalue from the next one
 };
 
@@ -72,7 +73,7 @@ class ErrorSampler {
   /// wherever the smooth error between the two samples has this share of its largest value.
   ErrorsAt at(double p, const ComplexVector& s, double shape = 1.0) const {
     const Vector none = Vector::Constant(s.size(), nan);
-    ErrorsAt result{p, none, none, none, none};
+    ErrorsAt result{p, none, none, none, none, none, none};
     const std::vector<EigenTriple> all = triples_at(p);
     if (all.empty()) return result;
     std::vector<EigenTriple> chosen;
@@ -87,12 +88,14 @@ class ErrorSampler {
       modes.push_back(i);
     }
     const SampleBounds bounds = errors_.between(gap_of(p), chosen);
-    const Vector interpolation = bounds.interpolation(shape);
+    const Vector interpolation = bounds.interpolation(shape), growth = bounds.growth(shape);
     for (std::size_t k = 0; k < modes.size(); ++k) {
       const auto from = static_cast<Eigen::Index>(k);
       result.interpolation[modes[k]] = interpolation[from];
       result.rough[modes[k]] = bounds.rough[from];
       result.digits[modes[k]] = bounds.digits[from];
+      result.growth[modes[k]] = growth[from];
+      result.rough_growth[modes[k]] = bounds.rough_growth[from];
       result.distance[modes[k]] = distance_to_others(s, modes[k]);
     }
     return result;
@@ -228,7 +231,10 @@ class IntervalWalk {
           options_.events.excitation->evaluate(std::span<const double>(si.data(), parameters.size()));
     }
     const Criterion here = criterion(event, s, excitation);
-    return std::abs(here.value) <= here.per_s * errors_.at(at.step, mode, path_.parameter_at(at));
+    const double p = path_.parameter_at(at);
+    const bool of_growth = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
+    const double error = of_growth ? errors_.growth_at(at.step, mode, p) : errors_.at(at.step, mode, p);
+    return std::abs(here.value) <= here.per_s * error;
   }
 
   double end_of(const Event& event, double place, double direction) const {
@@ -264,7 +270,7 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
   const auto n_steps = static_cast<Eigen::Index>(path.steps.size());
   const Eigen::Index n_modes = path.eigenvalues.cols();
   const Matrix unknown = Matrix::Constant(n_steps, n_modes, nan);
-  DataErrors errors{unknown, unknown, {}, unknown, [sampler](double p) { return sampler.shape(p); }};
+  DataErrors errors{unknown, unknown, {}, unknown, unknown, unknown, [sampler](double p) { return sampler.shape(p); }};
   for (Eigen::Index step = 0; step < n_steps; ++step) {
     const auto at = static_cast<std::size_t>(step);
     const auto [low, high] = std::minmax(path.p[at], path.p[at + 1]);
@@ -284,6 +290,9 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
           raise(errors.interpolation(step, mode), place.interpolation[mode]);
           raise(errors.rough(step, mode), place.rough[mode]);
           raise(errors.digits(step, mode), place.digits[mode]);
+          // Beside an exceptional point an error of Im s is one of Re s.
+          raise(errors.growth(step, mode), (grows ? place.interpolation : place.growth)[mode]);
+          raise(errors.rough_growth(step, mode), (grows ? place.rough : place.rough_growth)[mode]);
         }
       }
     }

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/lapack.hpp"
@@ -25,8 +26,22 @@ ComplexVector column(const Matrix& vectors, Eigen::Index j, bool is_complex, boo
   return result;
 }
 
+/// Replaces entries by zero that are below rounding of others of their row and of their column: noise of the
+/// computation that the matrix comes from. Balancing would take it for the size of its row or column.
+void drop_noise(Matrix& a) {
+  const Vector rows = a.cwiseAbs().rowwise().maxCoeff();
+  const Vector columns = a.cwiseAbs().colwise().maxCoeff().transpose();
+  for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      if (std::abs(a(i, j)) <= std::numeric_limits<double>::epsilon() * std::min(rows[i], columns[j])) a(i, j) = 0.0;
+    }
+  }
+}
+
 /// a x = lambda b x, with vectors u^H a = lambda u^H b.
 std::vector<EigenTriple> generalized(Matrix a, Matrix b) {
+  drop_noise(a);
+  drop_noise(b);
   const Eigen::Index n = a.rows();
   const auto size = static_cast<lapack_int>(n);
   Vector real(n), imaginary(n), beta(n), left_scale(n), right_scale(n), rcond_values(n), rcond_vectors(n);

@@ -267,6 +267,13 @@ Vector magnitudes_through(const Matrix& B, const Triples& triples, int power) {
   return sums;
 }
 
+/// Variance of Re(y^H E z), where the entries of E are independent with these variances.
+double variance_of_real_part(const Matrix& variances, const ComplexVector& y, const ComplexVector& z) {
+  const Vector a = y.real(), b = y.imag(), c = z.real(), d = z.imag();
+  return a.cwiseAbs2().dot(variances * c.cwiseAbs2()) + b.cwiseAbs2().dot(variances * d.cwiseAbs2()) +
+         2.0 * a.cwiseProduct(b).dot(variances * c.cwiseProduct(d));
+}
+
 }  // namespace
 
 InterpolationErrors::InterpolationErrors(int parameter, const std::vector<double>& values,
@@ -333,7 +340,7 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
   const Triples all = as_matrices(triples, samples_[0].at(0).rows());
 
   ComplexMatrix shares = ComplexMatrix::Zero(n_triples, n_samples);
-  Vector variance = Vector::Zero(n_triples), floor = variance, digits = variance;
+  Vector variance = Vector::Zero(n_triples), of_growth = variance, floor = variance, digits = variance;
   for (std::size_t c = 0; c < 3; ++c) {
     const PencilSamples& one = samples_[c];
     const Matrix magnitude = coefficients[c].cwiseAbs();
@@ -352,30 +359,39 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
         shares(i, j) += power_of(all.s[i], one.power) * all.left.col(i).dot(products.col(i));
     }
     if (variances[c].size() == 0) continue;
-    const Matrix squares = variances[c] * all.right.cwiseAbs2();
-    for (Eigen::Index i = 0; i < n_triples; ++i)
-      variance[i] +=
-          std::norm(power_of(all.s[i], one.power)) * all.left.col(i).cwiseAbs2().dot(squares.col(i));
+    for (Eigen::Index i = 0; i < n_triples; ++i) {
+      const ComplexVector y = std::conj(power_of(all.s[i], one.power)) * all.left.col(i), z = all.right.col(i);
+      variance[i] += y.cwiseAbs2().dot(variances[c] * z.cwiseAbs2());
+      of_growth[i] += variance_of_real_part(variances[c], y, z);
+    }
   }
-  Vector smooth = Vector::Zero(n_triples);
+  Vector smooth = Vector::Zero(n_triples), smooth_growth = smooth;
   const auto raise = [&](const Matrix& combinations, double factor) {
     if (combinations.cols() == 0) return;
-    smooth = smooth.cwiseMax(factor * (shares * combinations).cwiseAbs().rowwise().maxCoeff());
+    const ComplexMatrix errors = factor * shares * combinations;
+    smooth = smooth.cwiseMax(errors.cwiseAbs().rowwise().maxCoeff());
+    smooth_growth = smooth_growth.cwiseMax(errors.real().cwiseAbs().rowwise().maxCoeff());
   };
   for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
   raise(estimators_here.leave_one_out, 1.0);
-  Vector rough = options_.deviations * variance.cwiseSqrt();
   const Matrix& nearby = estimators_here.nearby;
-  if (nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby) {
+  const bool sees_nearby =
+      nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby;
+  // From the variance of an error, and from what the samples nearby miss of it.
+  const auto rough = [&](const Vector& expected, const Vector& sum) -> Vector {
+    const Vector on_range = options_.deviations * expected.cwiseSqrt();
+    if (!sees_nearby) return estimators_here.amplification * on_range + floor;
     // By chance all of a few may be small, so the variance counts like one more sample. It takes the entries
     // for independent of each other and may be far too large, so that its weight is limited.
     constexpr double largest_ratio = 30.0;
     const auto own = static_cast<double>(nearby.cols());
-    const Vector sum = (shares * nearby).cwiseAbs2().rowwise().sum();
-    const Vector squares = (sum + variance.cwiseMin(largest_ratio / own * sum)) / (own + 1.0);
-    rough = rough.cwiseMin(options_.deviations_nearby * squares.cwiseSqrt());
-  }
-  return {smooth, estimators_here.amplification * rough + floor, digits};
+    const Vector squares = (sum + expected.cwiseMin(largest_ratio / own * sum)) / (own + 1.0);
+    const Vector here = options_.deviations_nearby * squares.cwiseSqrt();
+    return estimators_here.amplification * on_range.cwiseMin(here) + floor;
+  };
+  const ComplexMatrix missed = sees_nearby ? ComplexMatrix(shares * nearby) : ComplexMatrix::Zero(n_triples, 1);
+  return {smooth, rough(variance, missed.cwiseAbs2().rowwise().sum()), digits, smooth_growth,
+          rough(of_growth, missed.real().cwiseAbs2().rowwise().sum())};
 }
 
 }  // namespace eigentrail

@@ -132,6 +132,7 @@ void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line
   line.margin[cell] = margin(s, stretch->stability);
   line.damping_ratio[cell] = least_damping_ratio(s);
   line.marginal_cells += stretch->stability == Stability::marginal ? 1 : 0;
+  line.partial_cells += stretch->stability != Stability::unstable && !stretch->whole ? 1 : 0;
 }
 
 bool turns_back(const std::vector<double>& p) {

@@ -77,9 +77,9 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<MapLine> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, axis_points, status,
+  auto& [second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points, status,
          message, reached, turned_back, n_modes, n_available, n_independent, counts] = self;
-  visit(second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, axis_points, status, message,
+  visit(second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points, status, message,
         reached, turned_back, n_modes, n_available, n_independent, counts);
 }
 
@@ -133,8 +133,8 @@ std::vector<std::string> notes_on(const StabilityMap& map, const std::string& se
       "turn back at a fold; their cells show the first passage",
       [](const MapLine& line) { return line.turned_back; }, false);
   note(
-      "followed some of their modes only and speak of these",
-      [](const MapLine& line) { return line.n_modes < line.n_available; }, false);
+      "are stable among the followed modes; others are not known",
+      [](const MapLine& line) { return line.partial_cells > 0; }, false);
   return notes;
 }
 

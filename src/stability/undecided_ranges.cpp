@@ -47,7 +47,7 @@ class Sampler {
         continue;
       // Where the data are as good as exact, the tolerance of the trace alone leaves nothing undecided.
       const double promised = accuracy_.tolerance * std::max(std::abs(s[mode]), accuracy_.reference);
-      const double data = errors_.at(here.step, mode, path_.parameter_at(here));
+      const double data = errors_.growth_at(here.step, mode, path_.parameter_at(here));
       const double error = data > promised ? data + promised : 0.0;
       lowest = std::max(lowest, s[mode].real() - error);
       highest = std::max(highest, s[mode].real() + error);

@@ -26,6 +26,7 @@ struct DataErrors {
 
   // These are not stored:
   Matrix rough = {};  ///< the part of `interpolation` that does not vanish at the samples
+  Matrix growth = {}, rough_growth = {};  ///< the same two of Re s
   /// The rest at a value of the parameter, as a share of its largest value between two samples; refers to the
   /// model.
   std::function<double(double)> shape = {};
@@ -41,6 +42,13 @@ struct DataErrors {
     if (!shape) return on_step(step, mode);
     const auto row = static_cast<Eigen::Index>(step);
     const double there = std::max(shape(p) * interpolation(row, mode), rough(row, mode));
+    return known_or_infinite(there + digits(row, mode));
+  }
+  /// The error of Re s there.
+  double growth_at(std::size_t step, Eigen::Index mode, double p) const {
+    if (!shape) return on_step(step, mode);
+    const auto row = static_cast<Eigen::Index>(step);
+    const double there = std::max(shape(p) * growth(row, mode), rough_growth(row, mode));
     return known_or_infinite(there + digits(row, mode));
   }
 

@@ -42,9 +42,11 @@ struct SampleBounds {
   Vector smooth;  ///< what the interpolant misses at most; it vanishes at the samples (SampleErrors::shape)
   Vector rough;   ///< of errors of the samples that do not depend smoothly on the parameter, and of rounding
   Vector digits;  ///< of the digits of the samples
+  Vector smooth_growth, rough_growth;  ///< the first two of Re s: an error may be nearly all in Im s
 
   /// The bound of what is interpolated, where the smooth part has this share of its largest value.
   Vector interpolation(double shape = 1.0) const { return (shape * smooth).cwiseMax(rough); }
+  Vector growth(double shape = 1.0) const { return (shape * smooth_growth).cwiseMax(rough_growth); }
 };
 
 /// How the error between two samples is estimated. The numbers were calibrated on families in closed form

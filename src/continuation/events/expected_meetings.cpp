@@ -16,7 +16,6 @@
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
-#include "modes/double_zero.hpp"
 
 namespace eigentrail {
 namespace {
@@ -28,17 +27,6 @@ constexpr double looked_into = 0.1;
 bool stands_for_a_mode(const Track& track, const Strand& strand) {
   return std::any_of(strand.members.begin(), strand.members.end(),
                      [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
-}
-
-/// Magnitude up to which an eigenvalue of a block at a point is rounding, 1/s: it may be a double zero. Zero
-/// in the reciprocal chart.
-double zero_level(const Track& block, const PathNode& node) {
-  if (block.pair.chart == Chart::reciprocal) return 0.0;
-  double largest = 0.0;
-  for (const Track& track : node.tracks) {
-    if (track.pair.chart == Chart::finite) largest = std::max(largest, track.roots.cwiseAbs().maxCoeff());
-  }
-  return double_zero * largest;
 }
 
 /// Whether both eigenvalues take part in a meeting at the left end, so that their gap has a known root there.
@@ -135,7 +123,6 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
       up_to = place->t - place->hidden_within;
     }
     const std::vector<Strand> strands = strands_of(track, i, sampler);
-    const double zero = zero_level(track, left);
     for (std::size_t a = 0; a < strands.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         Stretch stretch = where_told_apart(track, right.tracks[i], length, strands[a], strands[b]);
@@ -143,7 +130,7 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
         if (stretch.from >= stretch.to) continue;
         const bool has_just_met = have_just_met(track, strands[a].members, strands[b].members);
         const double first = has_just_met ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into, zero,
+        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into,
                           stretch);
         std::vector<double> found;
         for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
@@ -394,13 +381,12 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       if (stands_for_a_mode(track, strand)) strands.push_back(std::move(strand));
     }
     if (track.size() == 2) continue;
-    const double zero = zero_level(track, left);
     for (std::size_t a = before; a < strands.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
         const Stretch stretch = where_told_apart(track, right.tracks[i], length, strands[a], strands[b]);
         if (stretch.from >= stretch.to) continue;
         RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
-                          widest / std::abs(length), zero, stretch);
+                          widest / std::abs(length), stretch);
         for (const Complex t : roots.find()) {
           if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
         }

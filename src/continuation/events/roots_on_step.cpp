@@ -25,7 +25,7 @@ constexpr int most_pieces = 300;
 }  // namespace
 
 std::vector<Complex> RootsOnStep::find() {
-  if (!of_two_has_none() && !are_zero()) search(stretch_.from, stretch_.to);
+  if (!of_two_has_none() && !sampler_.are_hidden(a_, b_)) search(stretch_.from, stretch_.to);
   return std::move(roots_);
 }
 
@@ -47,17 +47,6 @@ bool RootsOnStep::is_closest(Complex root) {
 
 bool RootsOnStep::given_up() const {
   return pieces_ > most_pieces;
-}
-
-/// Whether both eigenvalues are zero up to rounding on the whole step: rigid-body motions, whose differences
-/// would be looked into piece by piece.
-bool RootsOnStep::are_zero() {
-  constexpr int samples = 8;
-  for (int i = 0; i <= samples; ++i) {
-    const ComplexVector& roots = sampler_(static_cast<double>(i) / samples);
-    if (std::max(std::abs(roots[a_]), std::abs(roots[b_])) > zero_) return false;
-  }
-  return true;
 }
 
 /// Region in which roots of a piece of that length must be excluded, in shares of the piece.

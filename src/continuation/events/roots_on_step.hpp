@@ -38,10 +38,10 @@ struct Stretch {
 /// off the real axis are found.
 class RootsOnStep {
  public:
-  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `zero`: up to
-  /// which eigenvalues are rounding. `stretch`: what is looked at of the step.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, double zero, const Stretch& stretch)
-      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), zero_(zero), stretch_(stretch) {}
+  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `stretch`: what is
+  /// looked at of the step.
+  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, const Stretch& stretch)
+      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), stretch_(stretch) {}
 
   /// All roots, in shares of the step.
   std::vector<Complex> find();
@@ -60,7 +60,6 @@ class RootsOnStep {
     const ComplexVector& roots = sampler_(t);
     return roots[a_] - roots[b_];
   }
-  bool are_zero();
   bool of_two_has_none() const;
   bool stay_apart(double begin, double end);
   bool given_up() const;
@@ -71,7 +70,7 @@ class RootsOnStep {
 
   StrandSampler& sampler_;
   int a_, b_;
-  double off_axis_, zero_;
+  double off_axis_;
   Stretch stretch_;
   double from_ = 0.0;
   FirstRoots* first_ = nullptr;

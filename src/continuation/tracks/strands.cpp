@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "continuation/step/shared_basis.hpp"
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -40,7 +41,7 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
 }
 
 StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length)
-    : functions_(functions_on_step(left, right, index, length)) {
+    : track_(left.tracks[index]), functions_(functions_on_step(left, right, index, length)) {
   const Track& track = left.tracks[index];
   ComplexVector roots = departing_roots(track, length, start_);
   rounding_ = coinciding * track.pair.Lambda.norm();
@@ -68,6 +69,14 @@ const ComplexVector& StrandSampler::operator()(double t) {
   auto from = nearest;
   while (from != known_.begin() && !are_distinct(from->second)) --from;
   return known_.emplace(t, follow_roots(functions_, from->second, from->first, t)).first->second;
+}
+
+bool StrandSampler::are_hidden(Eigen::Index i, Eigen::Index j) {
+  return std::all_of(samples.begin(), samples.end(), [&](double t) {
+    const ComplexVector& roots = (*this)(t);
+    const Vector errors = rounding_of_roots(track_, functions_(t), roots, RoundingThresholds());
+    return std::abs(roots[i] - roots[j]) <= errors[i] + errors[j];
+  });
 }
 
 double StrandSampler::resolution_at(double t, Eigen::Index i, Eigen::Index j) {

@@ -21,7 +21,8 @@ struct Strand {
 /// has computed.
 class StrandSampler {
  public:
-  /// `index`: of the track, the same at both ends. `length`: signed length of the step.
+  /// `index`: of the track, the same at both ends. `length`: signed length of the step. Keeps a reference to the
+  /// track.
   StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
 
   /// Smooth functions of the track on the step (modes/invariants.hpp).
@@ -35,6 +36,10 @@ class StrandSampler {
   /// The same at t, where more of them may coincide.
   double resolution_at(double t, Eigen::Index i, Eigen::Index j);
 
+  /// Whether two eigenvalues differ on the whole step by no more than their errors by rounding, as those of
+  /// rigid-body motions.
+  bool are_hidden(Eigen::Index i, Eigen::Index j);
+
   /// Eigenvalues at t. The reference is valid until the next call.
   const ComplexVector& operator()(double t);
 
@@ -42,6 +47,7 @@ class StrandSampler {
   /// Whether eigenvalues that are distinct at the left end are so in another set of them, too.
   bool are_distinct(const ComplexVector& roots) const;
 
+  const Track& track_;  ///< at the left end
   HermiteInterpolant functions_;
   double rounding_ = 0.0;                  ///< distance within which any two coincide
   Vector resolutions_;                     ///< of the eigenvalues at the left end (root_resolutions)

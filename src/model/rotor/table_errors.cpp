@@ -36,12 +36,15 @@ class TableErrors final : public SampleErrors {
   SampleBounds between(std::size_t gap, std::span<const EigenTriple> triples) const override {
     const double middle = 0.5 * (values_[gap] + values_[gap + 1]);
     const auto count = static_cast<Eigen::Index>(triples.size());
-    SampleBounds sum{Vector::Zero(count), Vector::Zero(count), Vector::Zero(count)};
+    const Vector none = Vector::Zero(count);
+    SampleBounds sum{none, none, none, none, none};
     for (const auto& table : tables_) {
       const SampleBounds one = table->errors->between(table->gap_at(middle), triples);
       sum.smooth += one.smooth;
       sum.rough += one.rough;
       sum.digits += one.digits;
+      sum.smooth_growth += one.smooth_growth;
+      sum.rough_growth += one.rough_growth;
     }
     return sum;
   }
