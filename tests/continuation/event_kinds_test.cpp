@@ -43,6 +43,9 @@ TEST(EventKinds, RemarksSayWhatAnEventIs) {
   facts.half_width = 1.5e-3;
   EXPECT_EQ(event_kind(EventKind::veering).remark(facts), "half-width 0.0015");
   facts.puiseux = {0.5, -0.25};
+  EXPECT_EQ(event_kind(EventKind::collision).remark(facts),
+            "unstable above, Puiseux coefficient 0.5 - 0.25j");
+  facts.direction = 0;
   EXPECT_EQ(event_kind(EventKind::collision).remark(facts), "Puiseux coefficient 0.5 - 0.25j");
   facts.puiseux = {7.0, -2e-18};
   EXPECT_EQ(event_kind(EventKind::collision).remark(facts), "Puiseux coefficient 7 + 0j");

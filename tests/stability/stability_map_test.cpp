@@ -296,14 +296,15 @@ TEST(StabilityMap, CellsWithAMissingModeAreUnknown) {
   });
 }
 
-/// The option `modes` of the scene may leave some modes out. The map then refers to the followed ones.
-TEST(StabilityMap, OfSomeModesSpeaksOfThose) {
+/// The option `modes` of the scene may leave some modes out. One that grows counts all the same.
+TEST(StabilityMap, OfSomeModesIsThatOfTheWholeModel) {
   const std::string scene =
       "[parameters]\nb = 0.0\n\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\nmodes = 1\n\n"
       "[matrix_family]\nM = [[[1, 0], [0, 1]]]\nC = [[[\"b\", 0], [0, -0.1]]]\n"
       "K = [[[1, 0], [0, 4]], [[1, 0], [0, 1]]]\n";
   const MapLine line = map_line(map_setup(scene, {"b", 0.1, 0.2, 2, 2}), 0.1, {0.0, 0.5, 1.0});
-  EXPECT_EQ(line.unstable, std::vector<int>(3, 0));
+  EXPECT_EQ(line.unstable, std::vector<int>(3, 1));
+  EXPECT_EQ(line.partial_cells, 0);
   EXPECT_EQ(line.n_modes, 1);
   EXPECT_EQ(line.n_available, 2);
 }

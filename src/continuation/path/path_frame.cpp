@@ -69,7 +69,10 @@ double fold_distance(const PathFrame& frame, const PathNode& node) {
 }
 
 double heading(const PathFrame& frame, const PathNode& node, double towards) {
-  const bool on_it = std::abs(fold_distance(frame, node)) <= on_fold;
+  // On a pitchfork p turns at the branch point, whose place rounding moves by more than that of a fold.
+  constexpr double at_branch_point = 1e-3;  // of `towards`
+  const double least = frame.on_branch_point(node) ? at_branch_point * std::abs(towards) : 0.0;
+  const bool on_it = std::abs(fold_distance(frame, node)) <= std::max(on_fold, least);
   return on_it ? 2.0 * coefficient(node.path.parameters, frame.range.traced, 2) * towards : frame.speed(node);
 }
 

@@ -16,9 +16,11 @@ namespace {
 /// of. As RoundingThresholds::entries.
 constexpr double roundings = 10.0;
 
-/// A stiffness in reduced coordinates, and the magnitudes of the terms that its entries are sums of.
+/// A stiffness in reduced coordinates, the magnitudes of the terms that its entries are sums of, and the norm of the
+/// whole: in its entries stiffnesses of elements may have cancelled, of which the terms tell nothing.
 struct Stiffness {
   Matrix K, terms;
+  double whole;
 };
 
 /// In coordinates in which the terms of the diagonal are one: stiffnesses of very different size, as those of
@@ -30,8 +32,10 @@ LogDeterminant determinant_of(const Stiffness& stiffness, double margin) {
       stiffness.terms.diagonal().unaryExpr([](double term) { return term > 0.0 ? 1.0 / std::sqrt(term) : 1.0; });
   const auto norm = [](const Matrix& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
   const Matrix K = scale.asDiagonal() * stiffness.K * scale.asDiagonal();
-  const double rounding = roundings * std::numeric_limits<double>::epsilon() *
-                          norm(scale.asDiagonal() * stiffness.terms * scale.asDiagonal());
+  const double rounding =
+      std::numeric_limits<double>::epsilon() *
+      (roundings * norm(scale.asDiagonal() * stiffness.terms * scale.asDiagonal()) +
+       stiffness.whole * scale.cwiseAbs2().maxCoeff());
   const Eigen::PartialPivLU<Matrix> lu(K);
   if (!(lu.rcond() * norm(K) > margin * rounding)) return {};
   LogDeterminant result{static_cast<double>(lu.permutationP().determinant()), -2.0 * scale.array().log().sum()};
@@ -54,12 +58,13 @@ std::vector<Eigen::Index> held_freedoms(const IndependentParts& parts) {
 /// `K` in the coordinates of a basis, of the freedoms that are held. `whole`: the stiffness of which K is a
 /// projection.
 Stiffness held_stiffness(const Matrix& K, const TangentBasis& basis, const SystemMatrix& whole) {
-  if (basis.is_identity) return {K, whole.dense().cwiseAbs()};
-  if (!basis.parts) return {K, magnitudes_of_terms(basis.T[0], whole.dense(), basis.T[0])};
+  const double norm = whole.one_norm();
+  if (basis.is_identity) return {K, whole.dense().cwiseAbs(), norm};
+  if (!basis.parts) return {K, magnitudes_of_terms(basis.T[0], whole.dense(), basis.T[0]), norm};
   const IndependentParts& parts = *basis.parts;
   const std::vector<Eigen::Index> held = held_freedoms(parts);
   const Matrix terms = magnitudes_of_terms(parts.left, whole.dense(), parts.right);
-  return {K(held, held), terms(held, held)};
+  return {K(held, held), terms(held, held), norm};
 }
 
 Stiffness held_stiffness(const PathPoint& point) {

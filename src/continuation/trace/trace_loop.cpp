@@ -22,6 +22,7 @@
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/mode_states.hpp"
+#include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "continuation/tracks/towards_infinity.hpp"
 
@@ -167,6 +168,14 @@ bool notices_rounding(const PathProblem& problem, const TraceOptions& options, c
   return true;
 }
 
+/// Modes that have to be followed from a point on. `meets`: eigenvalues coincide there.
+Newcomers needed_at(const PathProblem& problem, const TraceOptions& options, const PathNode& node, bool meets,
+                    TraceState& state) {
+  if (!state.settings.leaves_out) return {{}, 0};
+  if (meets) return {};
+  return newcomers(problem, options.modes, node, state.result.counts);
+}
+
 /// Makes the next attempt longer where a step ends so close to a collision of many eigenvalues that rounding
 /// hides them: from there none could be followed. Returns whether it does.
 bool is_lengthened(const Step& step, TraceState& state) {
@@ -235,8 +244,10 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
-  Newcomers needed = look_for_newcomers(node, !meetings.empty());
+  Newcomers needed = needed_at(problem_, options_, node, !meetings.empty(), state_);
   begin_here(problem_, std::move(needed.tracks), node, state_.numbers);
+  number_growing_guests(problem_, node, node, state_.numbers);
+  for (Track& track : node.tracks) track.arriving = track.modes;
   growing_unfollowed_ = needed.growing;
   number_modes(state_, node);
   log(std::move(met));
@@ -407,13 +418,6 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
   return true;
 }
 
-/// `meets`: eigenvalues coincide at the point.
-Newcomers TraceLoop::look_for_newcomers(const PathNode& node, bool meets) {
-  if (!state_.settings.leaves_out) return {{}, 0};
-  if (meets) return {};
-  return newcomers(problem_, options_.modes, node, state_.result.counts);
-}
-
 /// Takes a step: finds its events, stores and emits it, checks that no mode is missing, chooses what is
 /// followed together behind its end, and makes the end the origin of the next step. Returns whether the trace
 /// goes on. Where the chosen modes include one that nobody follows, the step is not taken, but tried again
@@ -421,8 +425,10 @@ Newcomers TraceLoop::look_for_newcomers(const PathNode& node, bool meets) {
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
-  Newcomers needed = look_for_newcomers(step.right, !landed.meetings.empty());
-  if (follow_back(problem_, needed.tracks, step.h, state_.origin.node, state_.numbers, result.counts) > 0) {
+  Newcomers needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
+  const int guests = number_growing_guests(problem_, step.right, state_.origin.node, state_.numbers);
+  if (guests + follow_back(problem_, needed.tracks, step.h, state_.origin.node, state_.numbers, result.counts) >
+      0) {
     number_modes(state_, state_.origin.node);
     state_.origin.tried.reset();
     return true;  // the step is taken again, with them

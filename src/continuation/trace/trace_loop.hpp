@@ -8,7 +8,6 @@
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
-#include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "eigentrail/continuation/trace_observer.hpp"
 
@@ -40,7 +39,6 @@ class TraceLoop final : private Checkpoint {
   bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
   bool shorten(const Verdict& verdict, double length);
   bool commit(LandedStep landed, const std::vector<bool>& certified);
-  Newcomers look_for_newcomers(const PathNode& node, bool meets);
   void settle_events(LandedStep& landed);
   void log_branch_point(const PathNode& node);
   void regroup(Step& step);

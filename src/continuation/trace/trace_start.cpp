@@ -116,7 +116,8 @@ std::optional<StartFailure> Start::compute() {
   const double least_scale = bridged ? problem_.s_ref / reference_share : 0.0;
   const auto groups = starting_groups(point_.pencil, modes_, result_.n_modes, problem_.s_ref, least_scale);
   if (auto failure = correct_groups(groups)) return failure;
-  if (!options_.reference) lower_reference();
+  // On a branch point the modes are not typical; the reference is that of a place beside it.
+  if (!options_.reference && !bridged) lower_reference();
   return make_node(groups);
 }
 

@@ -111,6 +111,29 @@ int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers,
   return added;
 }
 
+int number_growing_guests(const PathProblem& problem, const PathNode& right, PathNode& left,
+                          ModeNumbers& numbers) {
+  int found = 0;
+  for (std::size_t t = 0; t < right.tracks.size(); ++t) {
+    const Track& end = right.tracks[t];
+    std::vector<int>& modes = left.tracks[t].modes;
+    if (std::find(modes.begin(), modes.end(), Track::guest) == modes.end()) continue;
+    const Vector rounding = rounding_of_roots(end, problem.thresholds.rounding);
+    for (Eigen::Index i = 0; i < end.size(); ++i) {
+      int& mode = modes[static_cast<std::size_t>(i)];
+      // Of a pair in a real block the member with Im s > 0 has the number.
+      const bool is_lower = end.pair.is_real && chart_value(end.roots[i], end.pair.chart).imag() < 0.0;
+      if (mode != Track::guest || is_lower || !(end.roots[i].real() > rounding[i])) continue;
+      mode = numbers.count++;
+      ++found;
+      Eigen::Index partner = i;
+      if (end.pair.is_real) (end.roots.array() - std::conj(end.roots[i])).abs().minCoeff(&partner);
+      if (partner != i) modes[static_cast<std::size_t>(partner)] = Track::no_mode;
+    }
+  }
+  return found;
+}
+
 int begin_here(const PathProblem& problem, std::vector<Track> newcomers, PathNode& node,
                ModeNumbers& numbers) {
   int added = 0;

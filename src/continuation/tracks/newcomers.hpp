@@ -26,6 +26,11 @@ Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const 
 int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h, PathNode& left,
                 ModeNumbers& numbers, RunCounts& counts);
 
+/// Gives numbers to the guests of a step's blocks that grow at its right end, at the left end: the step has to be
+/// taken again, with them. `right`, `left`: its ends, with the same tracks. Returns how many there are.
+int number_growing_guests(const PathProblem& problem, const PathNode& right, PathNode& left,
+                          ModeNumbers& numbers);
+
 /// Adds newcomers that could not be followed back to the point where they were noticed. Returns how many
 /// modes were added.
 int begin_here(const PathProblem& problem, std::vector<Track> newcomers, PathNode& node,
