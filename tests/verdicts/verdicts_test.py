@@ -156,6 +156,21 @@ class Undamped(VerdictTest):
         self.assertEqual(self.events(self.trace_model("trifilar")), [])
 
 
+class OtherPaths(VerdictTest):
+    def test_a_buckled_column_is_followed_at_every_tolerance_and_order(self):
+        # The tip of the buckled path at P = 130 by four elements, from its own continuation at 1e-10.
+        for options in (("--tolerance", 1e-6), ("--tolerance", 1e-8), ("--order", 2), ("--tolerance", 1e-7, "--order", 3),
+                        ("--first-step", 0.7)):
+            for branch in (2, 3):
+                with self.subTest(options=options, branch=branch):
+                    file = self.trace_model("pinned_column", "--branch", branch, "--from", 50, "--to", 130, *options)
+                    with self.open(file) as loci:
+                        names = [name.decode() for name in loci["coordinate"][:]]
+                        self.assertEqual(loci["P"][-1], 130.0)
+                        self.assertAlmostEqual(loci["equilibrium"][-1, names.index("col.tip.x")], 0.4901288566, delta=1e-8)
+                    self.assertEqual(len(self.events(file, "branch_point")), 1)
+
+
 class Names(VerdictTest):
     def test_without_torsion_nothing_is_called_so(self):
         names = self.info(self.trace_model("pinned_shaft"))["mode_names"]

@@ -47,9 +47,11 @@ bool are_one(const Event& a, const Event& b, double range, const EventThresholds
   // maximum.
   if (a.direction * b.direction < 0) return false;
   const bool veering = a.kind == EventKind::veering;
+  // A branch point is one of the equilibrium, whichever modes show it.
+  const bool of_same_modes = veering || a.kind == EventKind::branch_point || a.modes == b.modes;
   const double place = (veering ? thresholds.same_veering : thresholds.same_place) * range;
   const double scale = std::max(std::abs(a.s), std::abs(b.s));
-  return (veering || a.modes == b.modes) && std::abs(a.p - b.p) <= place &&
+  return of_same_modes && std::abs(a.p - b.p) <= place &&
          std::abs(a.half_width - b.half_width) <= place &&
          (!veering || std::abs(a.s - b.s) <= thresholds.same_eigenvalue * scale);
 }
