@@ -166,8 +166,42 @@ DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size
   return block;
 }
 
+/// The ends of the steps are the points, but for rounding.
+void check_ends(const DenseArrays& arrays, const LociFile& loci) {
+  constexpr double rounding = 1e-12;
+  const double size = loci.highest() - loci.lowest() + std::abs(loci.highest());
+  const std::size_t orders = arrays.shape[3];
+  for (std::size_t end = 0; end < 2 * arrays.shape[0]; ++end) {
+    const std::size_t node = (end + 1) / 2;
+    const double expected = arrays.parameter[end * orders];
+    if (std::abs(expected - loci.p[node]) <= rounding * size) continue;
+    throw InputError(loci.path + ": point " + std::to_string(node + 1) + " has " + loci.parameter + " = " +
+                     exact_text(loci.p[node]) + ", the step " + (end % 2 == 0 ? "behind" : "before") +
+                     " it step_parameter = " + exact_text(expected));
+  }
+}
+
+/// A mode that exists on both sides of a point has an eigenvalue there, and at an end of the trace if it
+/// exists beside it.
+void check_existence(const DenseArrays& arrays, const LociFile& loci) {
+  const std::size_t steps = arrays.shape[0];
+  const std::size_t n_modes = loci.modes.size();
+  for (std::size_t node = 0; node <= steps && steps > 0; ++node) {
+    for (std::size_t mode = 0; mode < n_modes; ++mode) {
+      const bool before = node == 0 || arrays.mode_block[(node - 1) * n_modes + mode] >= 0;
+      const bool behind = node == steps || arrays.mode_block[node * n_modes + mode] >= 0;
+      const Complex s = loci.eigenvalues(static_cast<Eigen::Index>(node), static_cast<Eigen::Index>(mode));
+      if (!before || !behind || (!std::isnan(s.real()) && !std::isnan(s.imag()))) continue;
+      throw InputError(loci.path + ": eigenvalue of " + loci.modes[mode] + " at " + loci.parameter + " = " +
+                       exact_text(loci.p[node]) + " is nan, where the mode exists beside it");
+    }
+  }
+}
+
 void read_steps(const Hdf5File& file, LociFile& loci) {
   const DenseArrays arrays = read_arrays(file, loci);
+  check_ends(arrays, loci);
+  check_existence(arrays, loci);
   const std::size_t functions = arrays.shape[1];
   const std::size_t orders = arrays.shape[3];
   for (std::size_t step = 0; step < arrays.shape[0]; ++step) {
@@ -210,12 +244,14 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   loci.scene_parameters = file.read_texts("scene_parameter");
   const std::vector<std::int64_t> directions = file.read_integers("event_direction");
   const std::vector<double> values = file.read_real("event_value");
+  const std::vector<std::int64_t> nodes = file.read_integers("event_node");
   const std::size_t coordinates = loci.coordinates.size();
   const std::vector<Complex> shapes = read_event_rows<Complex>(file, "event_shape", loci, count, coordinates);
   const std::size_t n = loci.scene_parameters.size();
   const auto sensitivities = read_event_rows<Complex>(file, "event_sensitivity", loci, count, n);
   const auto shifts = read_event_rows<double>(file, "event_shift", loci, count, n);
-  require(directions.size() == count && values.size() == count, loci, "events");
+  require(directions.size() == count && values.size() == count && nodes.size() == count, loci,
+          "events");
   for (const std::int64_t direction : directions)
     require(direction >= -1 && direction <= 1, loci, "event_direction");
   const auto row = [](const auto& all, std::size_t i, std::size_t size) {
@@ -227,9 +263,11 @@ void read_events(const Hdf5File& file, LociFile& loci) {
     const std::size_t kind = lines[i].find(',');
     const std::size_t modes = lines[i].rfind(',');
     require(kind != std::string::npos && modes > kind, loci, "events");
+    require(nodes[i] >= 0 && nodes[i] < static_cast<std::int64_t>(loci.n_nodes()), loci, "event_node");
     loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
                            lines[i].substr(modes + 1), half_widths[i], puiseux[i],
-                           static_cast<int>(directions[i]), values[i], row(shapes, i, coordinates),
+                           static_cast<int>(directions[i]), values[i], static_cast<int>(nodes[i]),
+                           row(shapes, i, coordinates),
                            row(sensitivities, i, n), row(shifts, i, n)});
   }
 }
@@ -309,12 +347,11 @@ double LociFile::certified_share(std::size_t mode) const {
   return covered > 0.0 ? certified / covered : NAN;
 }
 
-LociFile read_loci(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
+namespace {
+
+LociFile loci_in(const std::function<Hdf5File()>& open, const std::string& path) {
   try {
-    const Hdf5File file = Hdf5File::open(path);
+    const Hdf5File file = open();
     check_format(file, path);
     LociFile loci;
     loci.path = path;
@@ -347,6 +384,19 @@ LociFile read_loci(const std::string& path) {
   } catch (const Hdf5Error& failure) {
     throw InputError(path + ": cannot be read as a loci file: " + failure.what());
   }
+}
+
+}  // namespace
+
+LociFile read_loci(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path + ": no such file, or not a plain file");
+  return loci_in([&] { return Hdf5File::open(path); }, path);
+}
+
+LociFile read_loci_image(const std::string& name, std::string_view image) {
+  return loci_in([&] { return Hdf5File::from_image(name, image); }, name);
 }
 
 void read_mode_shapes(const LociFile& loci,
