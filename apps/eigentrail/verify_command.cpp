@@ -48,8 +48,8 @@ int run_verify(const VerifyArguments& arguments) {
 
 void add_verify(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<VerifyArguments>();
-  CLI::App* command =
-      program.add_subcommand("verify", "check all that a loci file says: solved by another method, and traced again");
+  CLI::App* command = program.add_subcommand(
+      "verify", "check all that a loci file says: solved by another method, and traced again");
   command->add_option("FILE", arguments->file, "loci file")->required();
   command
       ->add_option("--samples", arguments->options.samples,

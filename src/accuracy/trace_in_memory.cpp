@@ -29,7 +29,8 @@ TracedFile trace_in_memory(const TraceSetup& setup,
   traced.result = trace(*setup.model, setup.options, observer);
   if (!has_started(traced.result.status)) return traced;
   if (traced.result.status != TraceStatus::stopped) {
-    const Findings found = find_ranges_and_errors(*setup.model, setup.options, recorder.path(), traced.result);
+    const Findings found =
+        find_ranges_and_errors(*setup.model, setup.options, recorder.path(), traced.result);
     writer->finish(traced.result, found.ranges, found.errors ? &*found.errors : nullptr);
   }
   traced.bytes = writer->bytes();

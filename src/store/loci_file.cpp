@@ -209,6 +209,8 @@ void read_steps(const Hdf5File& file, LociFile& loci) {
     path_step.length = arrays.length[step];
     path_step.parameter = Eigen::Map<const RowMajorReal>(arrays.parameter.data() + step * 2 * orders, 2,
                                                          static_cast<Eigen::Index>(orders));
+    const double progress = path_step.parameter(1, 0) - path_step.parameter(0, 0);
+    require(!follows_parameter(path_step) || progress * path_step.length > 0.0, loci, "step_length");
     std::vector<std::vector<int>> modes = modes_of_blocks(arrays, loci, step);
     for (std::size_t i = 0; i < functions; ++i) {
       const bool begins = arrays.block[step * functions + i] == static_cast<std::int64_t>(i);
@@ -250,8 +252,7 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   const std::size_t n = loci.scene_parameters.size();
   const auto sensitivities = read_event_rows<Complex>(file, "event_sensitivity", loci, count, n);
   const auto shifts = read_event_rows<double>(file, "event_shift", loci, count, n);
-  require(directions.size() == count && values.size() == count && nodes.size() == count, loci,
-          "events");
+  require(directions.size() == count && values.size() == count && nodes.size() == count, loci, "events");
   for (const std::int64_t direction : directions)
     require(direction >= -1 && direction <= 1, loci, "event_direction");
   const auto row = [](const auto& all, std::size_t i, std::size_t size) {
@@ -267,8 +268,7 @@ void read_events(const Hdf5File& file, LociFile& loci) {
     loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
                            lines[i].substr(modes + 1), half_widths[i], puiseux[i],
                            static_cast<int>(directions[i]), values[i], static_cast<int>(nodes[i]),
-                           row(shapes, i, coordinates),
-                           row(sensitivities, i, n), row(shifts, i, n)});
+                           row(shapes, i, coordinates), row(sensitivities, i, n), row(shifts, i, n)});
   }
 }
 

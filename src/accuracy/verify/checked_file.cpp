@@ -24,10 +24,12 @@ Event event_of(const LociFile& loci, const LociEvent& stored) {
   event.value = stored.value;
   event.node = stored.node;
   std::istringstream numbers(stored.modes);
-  for (std::string number; std::getline(numbers, number, ';');) event.modes.push_back(std::atoi(number.c_str()) - 1);
+  for (std::string number; std::getline(numbers, number, ';');)
+    event.modes.push_back(std::atoi(number.c_str()) - 1);
   const auto exists = [&](int mode) { return mode >= 0 && mode < static_cast<int>(loci.modes.size()); };
   const bool fits = std::all_of(event.modes.begin(), event.modes.end(), exists);
-  if (!fits) throw InputError(loci.path + ": the modes of " + event_line(event) + " do not fit the other datasets");
+  if (!fits)
+    throw InputError(loci.path + ": the modes of " + event_line(event) + " do not fit the other datasets");
   return event;
 }
 
@@ -38,18 +40,26 @@ PathPosition CheckedFile::node(std::size_t number) const {
   return is_last ? PathPosition{number - 1, 1.0} : PathPosition{number, 0.0};
 }
 
+bool CheckedFile::is_meeting(std::size_t number) const {
+  constexpr double near = 1e-6;       // share of the steps on both sides
+  constexpr double near_turn = 1e-5;  // share of the range, where the stiffness is singular
+  const std::size_t before = number > 0 ? number - 1 : 0;
+  const std::size_t behind = std::min(number + 1, loci.n_nodes() - 1);
+  const double p = loci.p[number];
+  const double length = std::abs(loci.p[behind] - p) + std::abs(p - loci.p[before]);
+  const double range = loci.highest() - loci.lowest();
+  return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+    const bool meets = event.kind == EventKind::collision || event.kind == EventKind::crossing;
+    const bool turns = event.kind == EventKind::fold || event.kind == EventKind::branch_point;
+    const double distance = std::abs(event.p - p);
+    return (meets && distance <= near * length) || (turns && distance <= near_turn * range);
+  });
+}
+
 std::vector<std::size_t> CheckedFile::plain_nodes(std::size_t most) const {
-  constexpr double near = 1e-6;  // share of the range
-  const auto is_meeting = [&](const Event& event) {
-    return event.kind == EventKind::collision || event.kind == EventKind::fold ||
-           event.kind == EventKind::branch_point;
-  };
   std::vector<std::size_t> plain;
   for (std::size_t node = 0; node < loci.n_nodes(); ++node) {
-    const bool meets = std::any_of(events.begin(), events.end(), [&](const Event& event) {
-      return is_meeting(event) && std::abs(event.p - loci.p[node]) <= near * (loci.highest() - loci.lowest());
-    });
-    if (!meets) plain.push_back(node);
+    if (!is_meeting(node)) plain.push_back(node);
   }
   const std::size_t count = std::min(plain.size(), most);
   std::vector<std::size_t> nodes;

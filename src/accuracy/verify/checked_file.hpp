@@ -20,10 +20,12 @@ struct CheckedFile {
   double scale_of(Complex s) const { return std::max(std::abs(s), accuracy.reference); }
   /// The place of a stored point.
   PathPosition node(std::size_t number) const;
-  /// Up to `most` stored points, evenly spread, without those where eigenvalues meet or the path turns: there
-  /// each eigenvalue is known to a root of rounding only.
+  /// Whether eigenvalues meet or the path turns at a stored point: each eigenvalue is known to a root of
+  /// rounding only.
+  bool is_meeting(std::size_t number) const;
+  /// Up to `most` other stored points, evenly spread.
   std::vector<std::size_t> plain_nodes(std::size_t most) const;
-  std::string at(double p) const;                     ///< "omega = 12.5"
+  std::string at(double p) const;                          ///< "omega = 12.5"
   std::string mode_at(Eigen::Index mode, double p) const;  ///< "mode 2 at omega = 12.5"
 };
 

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "accuracy/verify/comparisons.hpp"
 #include "core/hdf5_file.hpp"
@@ -35,7 +35,7 @@ Complex slope_of(const DenseBlock& block, const PathStep& step, bool at_left) {
 }
 
 void compare_derivatives(const CheckedFile& file, const std::vector<Complex>& stored, Comparison& result) {
-  constexpr double close = 1e-6;
+  constexpr double close = 1e-6;  // relative, and of the eigenvalue over the length of the step
   const LociFile& loci = file.loci;
   for (std::size_t i = 0; i < loci.steps.size(); ++i) {
     for (const DenseBlock& block : loci.steps[i].blocks) {
@@ -46,7 +46,9 @@ void compare_derivatives(const CheckedFile& file, const std::vector<Complex>& st
         const Complex given = stored[node * loci.modes.size() + static_cast<std::size_t>(block.modes[0])];
         // Neither is finite where eigenvalues meet, at infinity and at a fold.
         if (!std::isfinite(std::abs(slope)) || std::isnan(given.real())) continue;
-        if (std::abs(given - slope) <= close * std::abs(slope)) continue;
+        const double length = std::max(std::abs(loci.p[i + 1] - loci.p[i]), 1e-300);
+        const double size = file.scale_of(loci.eigenvalues(static_cast<Eigen::Index>(node), block.modes[0]));
+        if (std::abs(given - slope) <= close * (std::abs(slope) + size / length)) continue;
         result.faults.push_back("eigenvalue_derivative of " + file.mode_at(block.modes[0], loci.p[node]) +
                                 " is not the slope of the dense output");
       }

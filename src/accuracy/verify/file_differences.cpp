@@ -1,8 +1,8 @@
 #include "accuracy/verify/file_differences.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <map>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
@@ -28,7 +28,8 @@ std::string text_of(double value) {
   return exact_text(value);
 }
 std::string text_of(Complex value) {
-  return exact_text(value.real()) + (value.imag() < 0.0 ? " - " : " + ") + exact_text(std::abs(value.imag())) + "j";
+  return exact_text(value.real()) + (value.imag() < 0.0 ? " - " : " + ") +
+         exact_text(std::abs(value.imag())) + "j";
 }
 std::string text_of(std::int64_t value) {
   return std::to_string(value);
@@ -50,7 +51,9 @@ std::string indices_text(const Shape& shape, std::size_t index) {
 class Differences {
  public:
   Differences(const CheckedFile& file, std::string_view traced)
-      : file_(file), stored_(Hdf5File::open(file.loci.path)), traced_(Hdf5File::from_image("new trace", traced)) {
+      : file_(file),
+        stored_(Hdf5File::open(file.loci.path)),
+        traced_(Hdf5File::from_image("new trace", traced)) {
     for (const GrowingDataset& dataset : growing_datasets(*file.setup.model, file.setup.options))
       rows_[dataset.name] = dataset.dimensions.front();
   }
@@ -58,23 +61,15 @@ class Differences {
   FileDifferences find() {
     for (const std::string& name : traced_.members("/")) {
       if (name == "complex128") continue;  // the type
-      if (!stored_.has(name)) {
-        add(name, name + " is missing");
-      } else if (stored_.shape(name) != traced_.shape(name)) {
-        add(name, name + " has another shape in a new trace");
-      } else {
+      if (!stored_.has(name))
+        result_.faults.push_back(name + " is missing");
+      else
         compare_elements(name);
-      }
     }
     return std::move(result_);
   }
 
  private:
-  void add(const std::string& name, std::string fault) {
-    result_.different.insert(name);
-    result_.faults.push_back(std::move(fault));
-  }
-
   void compare_elements(const std::string& name) {
     switch (traced_.element_type(name)) {
       case ElementType::real:
@@ -92,13 +87,19 @@ class Differences {
   void compare(const std::string& name, const std::vector<Element>& stored,
                const std::vector<Element>& traced) {
     result_.numbers += stored.size();
-    const auto [a, b] = std::mismatch(stored.begin(), stored.end(), traced.begin(),
+    const Shape shape = stored_.shape(name);
+    if (shape != traced_.shape(name))
+      result_.faults.push_back(name + " has " + count_text(stored.size(), "element") + ", in a new trace " +
+                               std::to_string(traced.size()));
+    const auto common = static_cast<std::ptrdiff_t>(std::min(stored.size(), traced.size()));
+    const auto [a, b] = std::mismatch(stored.begin(), stored.begin() + common, traced.begin(),
                                       [](const Element& x, const Element& y) { return is_same(x, y); });
-    if (a == stored.end()) return;
-    const Shape shape = traced_.shape(name);
+    if (a == stored.begin() + common) return;
+    result_.different.insert(name);
     const auto index = static_cast<std::size_t>(a - stored.begin());
-    add(name, name + indices_text(shape, index) + place_text(name, index / (stored.size() / shape[0])) +
-                  " is " + text_of(*a) + ", in a new trace " + text_of(*b));
+    result_.faults.push_back(name + indices_text(shape, index) +
+                             place_text(name, index / (stored.size() / shape[0])) + " is " + text_of(*a) +
+                             ", in a new trace " + text_of(*b));
   }
 
   /// Where on the path a row of a dataset is.

@@ -1,7 +1,6 @@
 // Compares a loci file with another one of the same scene, number by number.
 #pragma once
 
-#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -11,14 +10,14 @@
 namespace eigentrail {
 
 struct FileDifferences {
-  std::size_t numbers = 0;            ///< that were compared
-  std::vector<std::string> faults;    ///< one per dataset and attribute that differs: the first difference
-  std::set<std::string> different;    ///< names of the datasets that differ
+  std::size_t numbers = 0;  ///< that were compared
+  std::vector<std::string>
+      faults;  ///< per dataset: whether it is missing or longer, and its first difference
+  std::set<std::string> different;  ///< names of the datasets of which numbers differ that both files have
 };
 
-/// What differs in the file from `traced`, the bytes of a loci file of a new trace. Datasets and attributes
-/// that only the first file has do not count: other programs may have added them. Nor do the work, the time
-/// and the program's version.
+/// What differs in the datasets of the file from `traced`, the bytes of a loci file of a new trace. Datasets
+/// that only the first file has do not count: other programs may have added them.
 FileDifferences file_differences(const CheckedFile& file, std::string_view traced);
 
 }  // namespace eigentrail

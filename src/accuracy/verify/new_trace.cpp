@@ -37,16 +37,25 @@ constexpr double same_place = 1e-6;
 
 void compare_labels_with(const LociFile& traced, const CheckedFile& file, Comparison& result) {
   constexpr double both_errors = 4.0;
+  const double range = traced.highest() - traced.lowest();
+  if (std::abs(file.loci.p.back() - traced.p.back()) > same_place * range)
+    result.faults.push_back("the file ends at " + file.at(file.loci.p.back()) + ", a new trace at " +
+                            exact_text(traced.p.back()));
+  if (file.loci.modes.size() != traced.modes.size())
+    result.faults.push_back("the file has " + count_text(file.loci.modes.size(), "mode") + ", a new trace " +
+                            std::to_string(traced.modes.size()));
   for (const std::size_t node : file.plain_nodes(100)) {
     const double p = file.loci.p[node];
     const std::vector<PathPosition> places = traced.positions(p);
     if (places.size() != 1) continue;  // the path turns back, or the new trace ends before
     const ComplexVector stored = file.loci.eigenvalues_at(file.node(node));
     const ComplexVector s = traced.eigenvalues_at(places.front());
-    const Vector errors = eigenvalue_errors(traced, places.front(), s, file.accuracy.tolerance, file.accuracy);
+    const Vector errors =
+        eigenvalue_errors(traced, places.front(), s, file.accuracy.tolerance, file.accuracy);
     for (Eigen::Index mode = 0; mode < std::min(s.size(), stored.size()); ++mode) {
       if (std::abs(s[mode] - stored[mode]) > both_errors * errors[mode])
-        result.faults.push_back("the eigenvalue of " + file.mode_at(mode, p) + " is another one in a new trace");
+        result.faults.push_back("the eigenvalue of " + file.mode_at(mode, p) +
+                                " is another one in a new trace");
     }
   }
 }
@@ -72,7 +81,10 @@ void compare_attributes_with(const LociFile& traced, const CheckedFile& file, Co
   for (const auto& [name, text] : traced.attributes) {
     const auto stored = file.loci.attributes.find(name);
     if (!is_compared(name) || (stored != file.loci.attributes.end() && stored->second == text)) continue;
-    result.faults.push_back("attribute " + name + " is " + (stored == file.loci.attributes.end() ? "missing" : "'" + printable(stored->second) + "'") + ", in a new trace '" + printable(text) + "'");
+    result.faults.push_back(
+        "attribute " + name + " is " +
+        (stored == file.loci.attributes.end() ? "missing" : "'" + printable(stored->second) + "'") +
+        ", in a new trace '" + printable(text) + "'");
   }
 }
 

@@ -138,12 +138,14 @@ Comparison compare_spectra(const CheckedFile& file, const VerifyOptions& options
   bool points_fit = true;
   const std::vector<std::size_t> nodes = file.plain_nodes(samples);
   for (const std::size_t node : nodes) points_fit = comparison.compare(file.node(node)) && points_fit;
-  Comparison result = std::move(comparison).result(places + std::to_string(nodes.size()) + " of " +
-                                                   count_text(loci.n_nodes(), "stored point"));
+  Comparison result = std::move(comparison)
+                          .result(places + std::to_string(nodes.size()) + " of " +
+                                  count_text(loci.n_nodes(), "stored point"));
   const std::string matrices = matrices_beside(file.setup.scene);
   if (!points_fit && !matrices.empty())
-    result.faults.push_back("the stored points do not fit the matrices in " + matrices +
-                            ": has this file changed since the trace? Trace again, or restore it");
+    result.faults.insert(result.faults.begin(),
+                         "the stored points do not fit the matrices in " + matrices +
+                             ": has this file changed since the trace? Trace again, or restore it");
   return result;
 }
 
