@@ -26,12 +26,14 @@ bool same_but_rounding(double a, double b) {
          std::abs(a - b) <= rounding * std::max({std::abs(a), std::abs(b), 1e-300});
 }
 
-/// The slope of the dense output of a mode that is a block of its own, in p, at an end of a step.
+/// The slope of the dense output of a mode that is a block of its own, in p, at an end of a step; of a pair
+/// for the member with Im s > 0.
 Complex slope_of(const DenseBlock& block, const PathStep& step, bool at_left) {
   const ComplexMatrix& series = at_left ? block.left : block.right;
-  const Complex slope = series(0, 1) / step.parameter(at_left ? 0 : 1, 1);
-  if (block.chart == Chart::finite) return slope;
-  return -slope / (series(0, 0) * series(0, 0));
+  const Complex s = chart_value(series(0, 0), block.chart);
+  const Complex along = series(0, 1) / step.parameter(at_left ? 0 : 1, 1);
+  const Complex slope = block.chart == Chart::finite ? along : -along * s * s;
+  return s.imag() < 0.0 ? std::conj(slope) : slope;
 }
 
 void compare_derivatives(const CheckedFile& file, const std::vector<Complex>& stored, Comparison& result) {
