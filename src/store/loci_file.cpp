@@ -13,6 +13,7 @@
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "store/data_error_datasets.hpp"
+#include "store/loci_checks.hpp"
 #include "store/loci_schema.hpp"
 #include "store/range_datasets.hpp"
 
@@ -75,7 +76,7 @@ void read_points(const Hdf5File& file, LociFile& loci) {
   if (file.has("rounding")) {
     require(file.shape("rounding") == Shape{loci.p.size(), loci.modes.size()}, loci, "rounding");
     loci.rounding = Eigen::Map<const RowMajorReal>(file.read_real("rounding").data(), loci.eigenvalues.rows(),
-                                               loci.eigenvalues.cols());
+                                                   loci.eigenvalues.cols());
   }
   if (file.has("growing_unfollowed")) {
     for (const std::int64_t number : file.read_integers("growing_unfollowed"))
@@ -166,42 +167,8 @@ DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size
   return block;
 }
 
-/// The ends of the steps are the points, but for rounding.
-void check_ends(const DenseArrays& arrays, const LociFile& loci) {
-  constexpr double rounding = 1e-12;
-  const double size = loci.highest() - loci.lowest() + std::abs(loci.highest());
-  const std::size_t orders = arrays.shape[3];
-  for (std::size_t end = 0; end < 2 * arrays.shape[0]; ++end) {
-    const std::size_t node = (end + 1) / 2;
-    const double expected = arrays.parameter[end * orders];
-    if (std::abs(expected - loci.p[node]) <= rounding * size) continue;
-    throw InputError(loci.path + ": point " + std::to_string(node + 1) + " has " + loci.parameter + " = " +
-                     exact_text(loci.p[node]) + ", the step " + (end % 2 == 0 ? "behind" : "before") +
-                     " it step_parameter = " + exact_text(expected));
-  }
-}
-
-/// A mode that exists on both sides of a point has an eigenvalue there, and at an end of the trace if it
-/// exists beside it.
-void check_existence(const DenseArrays& arrays, const LociFile& loci) {
-  const std::size_t steps = arrays.shape[0];
-  const std::size_t n_modes = loci.modes.size();
-  for (std::size_t node = 0; node <= steps && steps > 0; ++node) {
-    for (std::size_t mode = 0; mode < n_modes; ++mode) {
-      const bool before = node == 0 || arrays.mode_block[(node - 1) * n_modes + mode] >= 0;
-      const bool behind = node == steps || arrays.mode_block[node * n_modes + mode] >= 0;
-      const Complex s = loci.eigenvalues(static_cast<Eigen::Index>(node), static_cast<Eigen::Index>(mode));
-      if (!before || !behind || (!std::isnan(s.real()) && !std::isnan(s.imag()))) continue;
-      throw InputError(loci.path + ": eigenvalue of " + loci.modes[mode] + " at " + loci.parameter + " = " +
-                       exact_text(loci.p[node]) + " is nan, where the mode exists beside it");
-    }
-  }
-}
-
 void read_steps(const Hdf5File& file, LociFile& loci) {
   const DenseArrays arrays = read_arrays(file, loci);
-  check_ends(arrays, loci);
-  check_existence(arrays, loci);
   const std::size_t functions = arrays.shape[1];
   const std::size_t orders = arrays.shape[3];
   for (std::size_t step = 0; step < arrays.shape[0]; ++step) {
@@ -209,8 +176,6 @@ void read_steps(const Hdf5File& file, LociFile& loci) {
     path_step.length = arrays.length[step];
     path_step.parameter = Eigen::Map<const RowMajorReal>(arrays.parameter.data() + step * 2 * orders, 2,
                                                          static_cast<Eigen::Index>(orders));
-    const double progress = path_step.parameter(1, 0) - path_step.parameter(0, 0);
-    require(!follows_parameter(path_step) || progress * path_step.length > 0.0, loci, "step_length");
     std::vector<std::vector<int>> modes = modes_of_blocks(arrays, loci, step);
     for (std::size_t i = 0; i < functions; ++i) {
       const bool begins = arrays.block[step * functions + i] == static_cast<std::int64_t>(i);
@@ -368,6 +333,7 @@ LociFile loci_in(const std::function<Hdf5File()>& open, const std::string& path)
     }
     read_points(file, loci);
     read_steps(file, loci);
+    check_points_and_steps(loci);
     read_events(file, loci);
     loci.ranges = read_stable_ranges(file, loci.modes.size());
     loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
