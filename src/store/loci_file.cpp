@@ -13,6 +13,7 @@
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "store/data_error_datasets.hpp"
+#include "store/loci_checks.hpp"
 #include "store/loci_schema.hpp"
 #include "store/range_datasets.hpp"
 
@@ -75,7 +76,7 @@ void read_points(const Hdf5File& file, LociFile& loci) {
   if (file.has("rounding")) {
     require(file.shape("rounding") == Shape{loci.p.size(), loci.modes.size()}, loci, "rounding");
     loci.rounding = Eigen::Map<const RowMajorReal>(file.read_real("rounding").data(), loci.eigenvalues.rows(),
-                                               loci.eigenvalues.cols());
+                                                   loci.eigenvalues.cols());
   }
   if (file.has("growing_unfollowed")) {
     for (const std::int64_t number : file.read_integers("growing_unfollowed"))
@@ -210,12 +211,13 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   loci.scene_parameters = file.read_texts("scene_parameter");
   const std::vector<std::int64_t> directions = file.read_integers("event_direction");
   const std::vector<double> values = file.read_real("event_value");
+  const std::vector<std::int64_t> nodes = file.read_integers("event_node");
   const std::size_t coordinates = loci.coordinates.size();
   const std::vector<Complex> shapes = read_event_rows<Complex>(file, "event_shape", loci, count, coordinates);
   const std::size_t n = loci.scene_parameters.size();
   const auto sensitivities = read_event_rows<Complex>(file, "event_sensitivity", loci, count, n);
   const auto shifts = read_event_rows<double>(file, "event_shift", loci, count, n);
-  require(directions.size() == count && values.size() == count, loci, "events");
+  require(directions.size() == count && values.size() == count && nodes.size() == count, loci, "events");
   for (const std::int64_t direction : directions)
     require(direction >= -1 && direction <= 1, loci, "event_direction");
   const auto row = [](const auto& all, std::size_t i, std::size_t size) {
@@ -227,10 +229,11 @@ void read_events(const Hdf5File& file, LociFile& loci) {
     const std::size_t kind = lines[i].find(',');
     const std::size_t modes = lines[i].rfind(',');
     require(kind != std::string::npos && modes > kind, loci, "events");
+    require(nodes[i] >= 0 && nodes[i] < static_cast<std::int64_t>(loci.n_nodes()), loci, "event_node");
     loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
                            lines[i].substr(modes + 1), half_widths[i], puiseux[i],
-                           static_cast<int>(directions[i]), values[i], row(shapes, i, coordinates),
-                           row(sensitivities, i, n), row(shifts, i, n)});
+                           static_cast<int>(directions[i]), values[i], static_cast<int>(nodes[i]),
+                           row(shapes, i, coordinates), row(sensitivities, i, n), row(shifts, i, n)});
   }
 }
 
@@ -309,12 +312,11 @@ double LociFile::certified_share(std::size_t mode) const {
   return covered > 0.0 ? certified / covered : NAN;
 }
 
-LociFile read_loci(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
+namespace {
+
+LociFile loci_in(const std::function<Hdf5File()>& open, const std::string& path) {
   try {
-    const Hdf5File file = Hdf5File::open(path);
+    const Hdf5File file = open();
     check_format(file, path);
     LociFile loci;
     loci.path = path;
@@ -331,6 +333,7 @@ LociFile read_loci(const std::string& path) {
     }
     read_points(file, loci);
     read_steps(file, loci);
+    check_points_and_steps(loci);
     read_events(file, loci);
     loci.ranges = read_stable_ranges(file, loci.modes.size());
     loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
@@ -347,6 +350,19 @@ LociFile read_loci(const std::string& path) {
   } catch (const Hdf5Error& failure) {
     throw InputError(path + ": cannot be read as a loci file: " + failure.what());
   }
+}
+
+}  // namespace
+
+LociFile read_loci(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path + ": no such file, or not a plain file");
+  return loci_in([&] { return Hdf5File::open(path); }, path);
+}
+
+LociFile read_loci_image(const std::string& name, std::string_view image) {
+  return loci_in([&] { return Hdf5File::from_image(name, image); }, name);
 }
 
 void read_mode_shapes(const LociFile& loci,

@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "eigentrail/accuracy/findings.hpp"
+#include "eigentrail/accuracy/trace_in_memory.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/model/function_family.hpp"
 #include "eigentrail/projection/project.hpp"
@@ -89,34 +89,6 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
       });
 }
 
-/// The loci file of a trace. It begins with the first point.
-struct TracedFile {
-  const TraceSetup& setup;
-  Watch& watch;
-  TraceStart started = {};
-  std::optional<LociWriter> writer = {};
-  PathRecorder recorder = {};
-
-  TraceObserver observer() {
-    TraceObserver observer;
-    observer.started = [this](const TraceStart& start) { started = start; };
-    observer.point = [this](const TracePoint& point) {
-      if (!writer) writer.emplace(setup.scene, *setup.model, setup.options, started, point);
-      writer->append(point);
-      recorder.append(point);
-      return true;
-    };
-    observer.checkpoint = [this](const Checkpoint& checkpoint) {
-      const TraceOptions& options = setup.options;
-      const double reached = checkpoint.so_far().reached;
-      if (watch((reached - options.from) / (options.to - options.from), recorder.points())) return true;
-      writer->interrupt(checkpoint);
-      return false;
-    };
-    return observer;
-  }
-};
-
 Outcome run_trace(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
                   int threads, const py::object& progress) {
   Watch watch(progress);
@@ -129,15 +101,12 @@ Outcome run_trace(const Scene& scene, const Options& options, const std::optiona
     project_if_large(setup.model, setup.options);
     setup.options.threads =
         threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    TracedFile traced{setup, watch};
-    result = trace(*setup.model, setup.options, traced.observer());
-    if (!has_started(result.status)) return "";
-    if (result.status != TraceStatus::stopped) {
-      const Findings found =
-          find_ranges_and_errors(*setup.model, setup.options, traced.recorder.path(), result);
-      traced.writer->finish(result, found.ranges, found.errors ? &*found.errors : nullptr);
-    }
-    return traced.writer->bytes();
+    TracedFile traced = trace_in_memory(setup, [&](const Checkpoint& checkpoint, int points) {
+      const TraceOptions& options = setup.options;
+      return watch((checkpoint.so_far().reached - options.from) / (options.to - options.from), points);
+    });
+    result = std::move(traced.result);
+    return std::move(traced.bytes);
   });
   watch.rethrow();
   outcome.file = py::bytes(file);

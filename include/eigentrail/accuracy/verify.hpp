@@ -1,49 +1,46 @@
-// Independent check of a loci file. At random parameter values the stored scene is solved again and its
-// whole spectrum is computed by QZ. Each value of the dense output is compared with the eigenvalue assigned
-// to it, one to one. Where one is off, the spectrum is refined in extended precision before it is judged: of
-// close eigenvalues, and where entries differ by orders of magnitude, QZ has larger errors than a trace. Of a
-// large model, which was projected for the trace, the whole model is solved by shift-invert iterations for
-// the eigenvalues nearest to the followed ones.
+// Independent check of a loci file: what it says is computed again and compared.
+//
+//   spectra         at random parameter values and at the stored points the stored scene is solved again, and
+//                   its spectrum is computed by QZ. Each eigenvalue of the file is compared with the one
+//                   assigned to it, one to one. Where one is off, the spectrum is refined in extended
+//                   precision before it is judged: of close eigenvalues, and where entries differ by orders
+//                   of magnitude, QZ has larger errors than a trace. Of a large model, which was projected
+//                   for the trace, the whole model is solved by shift-invert iterations for the eigenvalues
+//                   nearest to the followed ones.
+//   points          the stored equilibria and mode shapes fulfil their equations
+//   labels          the dense output of each mode goes from its stored eigenvalue to the next one
+//   special points  each one has its eigenvalue in the spectrum there, and fulfils its condition; changes of
+//                   the number of growing eigenvalues and of real ones have their special points
+//   ranges          follow from the points, the dense output and the special points
+//   all of it       a new trace of the stored scene gives the same numbers
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "eigentrail/store/loci_file.hpp"
 
 namespace eigentrail {
 
 struct VerifyOptions {
-  /// Number of random parameter values, >= 1; absent: 100, of a large model 10, with a factorization each.
+  /// Number of random parameter values, and largest number of stored points that are solved, >= 1; absent:
+  /// 100, of a large model 10, with a factorization each.
   std::optional<int> samples = {};
   std::uint64_t seed = 1;  ///< of the random numbers
 };
 
-/// The sample with the largest discrepancy.
-struct Discrepancy {
-  /// |s_dense - s| / max(|s|, reference). For eigenvalues that are followed as a block, this divided by the
-  /// bound of their error in units of the tolerance: beside an exceptional point a small error of the block
-  /// moves its eigenvalues by the root of it.
-  double relative = 0.0;
-  double parameter = 0.0;
-  int mode = -1;  ///< from 0; -1: no sample was solved
+/// One of the comparisons above.
+struct Comparison {
+  std::string compared;             ///< what was compared, in words
+  std::vector<std::string> faults;  ///< what is wrong, and where
 };
 
 struct [[nodiscard]] VerifyReport {
-  bool large = false;  ///< the model was projected for the trace, and is solved as a whole here
-  int samples = 0;
-  int unsolved = 0;  ///< number of places without an equilibrium or a spectrum
-  int refined = 0;   ///< number of places that were solved in extended precision as well
-  Discrepancy worst;
-  int missing = 0;          ///< largest number of eigenvalues that no mode has, where all modes are followed
-  double missing_at = 0.0;  ///< the parameter there
-  double tolerance = 0.0;   ///< of the file
-  /// The file with the model's matrices, if the check failed and already the stored points do not fit them.
-  std::string other_matrices;
+  std::vector<Comparison> comparisons;
 
-  /// Every sample was solved, no value is further off than the tolerance, and no eigenvalue is missing.
-  bool passed() const { return unsolved == 0 && samples > 0 && worst.relative <= tolerance && missing == 0; }
+  bool passed() const;
 };
 
 /// Checks a loci file. Throws InputError if the file contains no points or its scene cannot be rebuilt.

@@ -25,6 +25,7 @@ struct LociEvent {
   // The following members have the meaning of those of Event.
   int direction = 0;
   double value = 0.0;
+  int node = 0;
   ComplexVector shape;        ///< per coordinate
   ComplexVector sensitivity;  ///< ds/dq per parameter q of the scene; NaN where not defined
   Vector shift;  ///< derivative of the event's `parameter` with respect to q; NaN where not defined
@@ -78,6 +79,9 @@ struct LociFile : RecordedPath {
 /// Reads a loci file. Throws InputError if the file is missing, is no loci file, has another schema version
 /// or is inconsistent.
 LociFile read_loci(const std::string& path);
+
+/// The same from the bytes of a file; `name` is used in messages.
+LociFile read_loci_image(const std::string& name, std::string_view image);
 
 /// Calls `use` with the mode shapes of every stored point: mode x coordinate, row-major, NaN where a mode
 /// does not exist. Reads one point at a time. Throws InputError if the file does not fit `loci`, which was

@@ -1,0 +1,41 @@
+// A loci file that is checked, and what all comparisons need of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eigentrail/accuracy/verify.hpp"
+#include "eigentrail/continuation/event.hpp"
+#include "eigentrail/continuation/trace_options.hpp"
+
+namespace eigentrail {
+
+struct CheckedFile {
+  const LociFile& loci;
+  const TraceSetup& setup;
+  EigenvalueAccuracy accuracy;  ///< of the trace
+  std::vector<Event> events;    ///< of the file, without sensitivities
+
+  bool has_steps() const { return !loci.steps.empty(); }
+  double scale_of(Complex s) const { return std::max(std::abs(s), accuracy.reference); }
+  /// The place of a stored point.
+  PathPosition node(std::size_t number) const;
+  /// Whether eigenvalues meet or the path turns at a stored point: each eigenvalue is known to a root of
+  /// rounding only.
+  bool is_meeting(std::size_t number) const;
+  /// Up to `most` other stored points, evenly spread.
+  std::vector<std::size_t> plain_nodes(std::size_t most) const;
+  std::string at(double p) const;                          ///< "omega = 12.5"
+  std::string mode_at(Eigen::Index mode, double p) const;  ///< "mode 2 at omega = 12.5"
+};
+
+/// Throws InputError if an event cannot be read.
+CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup);
+
+/// A number in few digits, for words.
+std::string few_digits(double value);
+
+/// "1 point", "3 points".
+std::string count_text(std::size_t count, const std::string& what);
+
+}  // namespace eigentrail

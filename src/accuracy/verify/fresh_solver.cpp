@@ -1,0 +1,144 @@
+#include "accuracy/verify/fresh_solver.hpp"
+
+#include <algorithm>
+
+#include "core/positive_or_one.hpp"
+#include "eigentrail/accuracy/reference.hpp"
+#include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/projection/route.hpp"
+
+namespace eigentrail {
+namespace {
+
+PathProblem problem_of(const TraceSetup& setup) {
+  PathProblem problem = problem_along(*setup.model, setup.options.parameter);
+  problem.steady.relax = false;  // relaxation may lead to another equilibrium than the stored one
+  return problem;
+}
+
+Vector row(const Matrix& rows, Eigen::Index i) {
+  return rows.row(i).transpose();
+}
+
+/// A row, or between two rows; also of matrices without columns.
+Vector between(const Matrix& rows, const PathPosition& position) {
+  const auto node = static_cast<Eigen::Index>(position.step);
+  if (position.t == 0.0 || rows.cols() == 0) return rows.cols() == 0 ? Vector(0) : row(rows, node);
+  return (1.0 - position.t) * row(rows, node) + position.t * row(rows, node + 1);
+}
+
+/// Multipliers and trimmed parameters, as in Path::lambda, one row per node.
+Matrix multipliers_and_trim(const LociFile& loci) {
+  const Eigen::Index m = loci.multiplier.cols();
+  Matrix rows(loci.multiplier.rows(), m + static_cast<Eigen::Index>(loci.trimmed.size()));
+  rows.leftCols(m) = loci.multiplier;
+  for (std::size_t i = 0; i < loci.trimmed.size(); ++i)
+    rows.col(m + static_cast<Eigen::Index>(i)) =
+        Vector::Map(loci.trimmed[i].values.data(), loci.multiplier.rows());
+  return rows;
+}
+
+/// The planes perpendicular to the chord between the two points of a step.
+PathPlane plane_across(const LociFile& loci, std::size_t step, const Matrix& unknowns) {
+  const auto node = static_cast<Eigen::Index>(step);
+  const Vector begin = row(loci.equilibrium, node);
+  const Vector chord = row(loci.equilibrium, node + 1) - begin;
+  const double range = loci.highest() - loci.lowest();
+  const double size = std::max(begin.squaredNorm(), 1e-300);
+  PathPlane plane{chord / size, (loci.p[step + 1] - loci.p[step]) / (range * range)};
+  const auto n_trims = static_cast<Eigen::Index>(loci.trimmed.size());
+  if (n_trims > 0) {
+    const Vector sizes = unknowns.rightCols(n_trims).cwiseAbs().colwise().maxCoeff().transpose();
+    const Vector change = (row(unknowns, node + 1) - row(unknowns, node)).tail(n_trims);
+    plane.u = change.cwiseQuotient(sizes.cwiseAbs2().unaryExpr(&positive_or_one));
+  }
+  return plane;
+}
+
+/// Starting value for the equilibrium at p on a step where the path may turn back. Newton's method at
+/// constant p could converge to another passage of the path. Here equilibria are computed on planes
+/// perpendicular to the chord between the two points of the step, and the plane on which the equilibrium has
+/// the parameter value p is found by bisection.
+EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci, std::size_t step,
+                                double p) {
+  constexpr int most_planes = 60;
+  const Matrix unknowns = multipliers_and_trim(loci);
+  const PathPlane plane = plane_across(loci, step, unknowns);
+  const double p_begin = loci.p[step];
+  const double p_chord = loci.p[step + 1] - p_begin;
+  EvaluationCounts counts = problem.model.new_counts();
+  EquilibriumGuess guess{between(loci.equilibrium, {step, 0.0}), between(unknowns, {step, 0.0}), false};
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < most_planes; ++i) {
+    const double t = 0.5 * (low + high);
+    double p_there = p_begin + t * p_chord;
+    const Equilibrium there = solve_equilibrium_on(
+        plane, problem.model, parameters_at(problem, p_there), problem.traced,
+        between(loci.equilibrium, {step, t}), between(unknowns, {step, t}), problem.steady, p_there, counts);
+    if (there.status != SteadyStatus::converged) break;
+    guess = {there.x, there.lambda, false};
+    // p is monotonic on a step, because the trace stores a point at every fold.
+    ((p_there - p) * p_chord < 0.0 ? low : high) = t;
+  }
+  return guess;
+}
+
+bool is_node(const PathPosition& position) {
+  return position.t == 0.0 || position.t == 1.0;
+}
+
+}  // namespace
+
+FreshSolver::FreshSolver(const TraceSetup& setup, const LociFile& loci)
+    : problem_(problem_of(setup)), loci_(loci) {
+  if (is_large(*setup.model, setup.options)) large_.emplace(*setup.model, setup.options);
+}
+
+bool FreshSolver::path_may_turn_at(const PathPosition& position) const {
+  return !loci_.steps.empty() && !follows_parameter(loci_.steps[position.step]);
+}
+
+EquilibriumGuess FreshSolver::guess_at(const PathPosition& position) const {
+  if (path_may_turn_at(position) && !is_node(position))
+    return guess_on_chord(problem_, loci_, position.step, loci_.parameter_at(position));
+  return {between(loci_.equilibrium, position), between(multipliers_and_trim(loci_), position), false};
+}
+
+PathPoint FreshSolver::point_at(const PathPosition& position) const {
+  RunCounts counts;
+  // At a fold the equilibrium is found on a plane only.
+  std::optional<PathPlane> plane;
+  if (path_may_turn_at(position) && is_node(position))
+    plane = plane_across(loci_, position.step, multipliers_and_trim(loci_));
+  return reduce_at(problem_, loci_.parameter_at(position), guess_at(position), Matrix(), counts, plane);
+}
+
+std::vector<Complex> FreshSolver::spectrum_at(const PathPosition& position, const ComplexVector& s) {
+  if (large_) {
+    const double p = loci_.parameter_at(position);
+    if (problem_.model.n_coordinates() != loci_.equilibrium.cols()) return large_->beside(s, p, {}, {});
+    const EquilibriumGuess guess = guess_at(position);
+    return large_->beside(s, p, guess.x, guess.lambda);
+  }
+  const PathPoint point = point_at(position);
+  if (point.status != PointStatus::computed) return {};
+  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  if (spectrum.status != SpectrumStatus::complete) return {};
+  std::vector<Complex> exact;
+  for (const StartingMode& found : spectrum.modes) exact.push_back(found.s);
+  return exact;
+}
+
+std::vector<Complex> FreshSolver::in_extended_precision(const PathPosition& position) const {
+  if (large_) return {};
+  const ReferenceSpectrum spectrum =
+      reference_spectrum(problem_, loci_.parameter_at(position), guess_at(position));
+  if (spectrum.status != ReferenceStatus::converged) return {};
+  std::vector<Complex> exact;
+  for (const ExtendedComplex& s : spectrum.s)
+    exact.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
+  return exact;
+}
+
+}  // namespace eigentrail

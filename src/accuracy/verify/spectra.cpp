@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "accuracy/verify/comparisons.hpp"
+#include "accuracy/verify/spectrum_errors.hpp"
+#include "accuracy/verify/stored_scene.hpp"
+#include "eigentrail/core/text.hpp"
+
+namespace eigentrail {
+namespace {
+
+constexpr int usual_samples = 100;
+constexpr int samples_of_large_model = 10;
+
+/// Largest magnitude of an eigenvalue at the stored points, 1/s.
+double largest_stored(const LociFile& loci) {
+  double largest = 0.0;
+  for (const Complex s : loci.eigenvalues.reshaped()) {
+    if (std::isfinite(s.real())) largest = std::max(largest, std::abs(s));
+  }
+  return largest;
+}
+
+/// Number of exact eigenvalues, up to a magnitude, that no mode of the file has.
+std::ptrdiff_t missing_modes(const ComplexVector& s, const std::vector<Complex>& exact, double largest) {
+  const auto is_within = [](Complex value, double limit) {
+    return std::isfinite(value.real()) && std::abs(value) <= limit;
+  };
+  constexpr double margin = 1.1;  // beside the limit an eigenvalue may count here and not there
+  const auto expected =
+      std::count_if(exact.begin(), exact.end(), [&](Complex value) { return is_within(value, largest); });
+  const auto found =
+      std::count_if(s.begin(), s.end(), [&](Complex value) { return is_within(value, margin * largest); });
+  return expected - found;
+}
+
+class SpectrumComparison {
+ public:
+  SpectrumComparison(const CheckedFile& file, FreshSolver& solver)
+      : file_(file),
+        solver_(solver),
+        largest_(largest_stored(file.loci)),
+        follows_all_(file.setup.options.modes.is_all()) {}
+
+  /// Compares at one place; whether all is right there.
+  bool compare(const PathPosition& place) {
+    const double p = file_.loci.p.size() == 1 ? file_.loci.p[0] : file_.loci.parameter_at(place);
+    const ComplexVector s = file_.loci.eigenvalues_at(place);
+    const std::vector<Complex> exact = solver_.spectrum_at(place, s);
+    if (exact.empty()) return wrong("the scene cannot be solved at " + file_.at(p));
+    ++solved_;
+    Vector off = discrepancies(file_.loci, place, s, exact, file_.accuracy);
+    if (off.maxCoeff() > file_.accuracy.tolerance) off = refined(place, s, std::move(off));
+    Eigen::Index mode = 0;
+    const double worst = off.maxCoeff(&mode);
+    if (worst >= worst_) {
+      worst_ = worst;
+      worst_place_ = file_.mode_at(mode, p);
+    }
+    if (worst > file_.accuracy.tolerance)
+      return wrong("eigenvalue of " + file_.mode_at(mode, p) + " is off by " + few_digits(worst) +
+                   " of its magnitude, " + of_tolerance(worst));
+    const std::ptrdiff_t missing = follows_all_ ? missing_modes(s, exact, largest_) : 0;
+    if (missing > 0)
+      return wrong(count_text(static_cast<std::size_t>(missing), "eigenvalue") + " of the spectrum at " +
+                   file_.at(p) + (missing == 1 ? " has" : " have") + " no mode");
+    return true;
+  }
+
+  Comparison result(const std::string& places) && {
+    std::string text = places + ", each solved afresh " +
+                       (solver_.is_of_large_model() ? "by shift-invert of the whole model" : "by QZ");
+    if (refined_ > 0) text += ", at " + std::to_string(refined_) + " of them refined in extended precision";
+    if (solved_ > 0)
+      text += ": worst discrepancy " + few_digits(worst_) + ", " + of_tolerance(worst_) + ": " + worst_place_;
+    else
+      faults_.push_back("nothing was compared with a spectrum");
+    return {std::move(text), std::move(faults_)};
+  }
+
+ private:
+  bool wrong(std::string fault) {
+    faults_.push_back(std::move(fault));
+    return false;
+  }
+
+  std::string of_tolerance(double error) const {
+    return few_digits(error / file_.accuracy.tolerance) + " of the tolerance " +
+           exact_text(file_.accuracy.tolerance);
+  }
+
+  Vector refined(const PathPosition& place, const ComplexVector& s, Vector off) {
+    const std::vector<Complex> exact = solver_.in_extended_precision(place);
+    if (exact.empty()) return off;
+    ++refined_;
+    return discrepancies(file_.loci, place, s, exact, file_.accuracy);
+  }
+
+  const CheckedFile& file_;
+  FreshSolver& solver_;
+  double largest_;
+  bool follows_all_;
+  int solved_ = 0, refined_ = 0;
+  double worst_ = 0.0;
+  std::string worst_place_;
+  std::vector<std::string> faults_;
+};
+
+/// The separate file of matrices, with its folder; empty if there is none.
+std::string matrices_beside(const Scene& scene) {
+  const std::string matrices = file_of_matrices(scene);
+  if (matrices.empty()) return "";
+  return (std::filesystem::path(scene.path).parent_path() / matrices).string();
+}
+
+}  // namespace
+
+std::size_t samples_of(const VerifyOptions& options, const FreshSolver& solver) {
+  return static_cast<std::size_t>(
+      options.samples.value_or(solver.is_of_large_model() ? samples_of_large_model : usual_samples));
+}
+
+Comparison compare_spectra(const CheckedFile& file, const VerifyOptions& options, FreshSolver& solver) {
+  const LociFile& loci = file.loci;
+  const std::size_t samples = samples_of(options, solver);
+  SpectrumComparison comparison(file, solver);
+  std::string places;
+  if (file.has_steps()) {
+    places = count_text(samples, "random value") + " of " + loci.parameter + " and ";
+    std::mt19937_64 engine(options.seed);
+    std::uniform_real_distribution<double> uniform(loci.lowest(), loci.highest());
+    for (std::size_t i = 0; i < samples; ++i) {
+      for (const PathPosition& place : loci.positions(uniform(engine))) comparison.compare(place);
+    }
+  }
+  bool points_fit = true;
+  const std::vector<std::size_t> nodes = file.plain_nodes(samples);
+  for (const std::size_t node : nodes) points_fit = comparison.compare(file.node(node)) && points_fit;
+  Comparison result = std::move(comparison)
+                          .result(places + std::to_string(nodes.size()) + " of " +
+                                  count_text(loci.n_nodes(), "stored point"));
+  const std::string matrices = matrices_beside(file.setup.scene);
+  if (!points_fit && !matrices.empty())
+    result.faults.insert(result.faults.begin(),
+                         "the stored points do not fit the matrices in " + matrices +
+                             ": has this file changed since the trace? Trace again, or restore it");
+  return result;
+}
+
+}  // namespace eigentrail

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "accuracy/verify/comparisons.hpp"
+#include "accuracy/verify/spectrum_errors.hpp"
+#include "eigentrail/stability/permanent_modes.hpp"
+
+namespace eigentrail {
+namespace {
+
+/// A real part at a stored point is not zero if it is larger than this times max(|s|, reference).
+constexpr double vanishing_real_part = 1e-9;
+
+/// Numbers of eigenvalues at a stored point, both members of pairs counted.
+struct Census {
+  int all = 0, growing = 0, real = 0;
+  bool knows_growing = true;  ///< no real part is zero within its error
+};
+
+Census census_at(const CheckedFile& file, std::size_t node, const std::vector<Permanence>& permanence) {
+  const LociFile& loci = file.loci;
+  const PathPosition place = file.node(node);
+  const ComplexVector s = loci.eigenvalues_at(place);
+  const Vector errors = eigenvalue_errors(loci, place, s, vanishing_real_part, file.accuracy);
+  Census census;
+  for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
+    if (!std::isfinite(s[mode].real()) || permanence[static_cast<std::size_t>(mode)] == Permanence::zero)
+      continue;
+    const int members = s[mode].imag() == 0.0 ? 1 : 2;
+    census.all += members;
+    census.growing += s[mode].real() > 0.0 ? members : 0;
+    census.real += s[mode].imag() == 0.0 ? 1 : 0;
+    census.knows_growing = census.knows_growing && std::abs(s[mode].real()) > errors[mode];
+  }
+  return census;
+}
+
+/// The change of the number of growing eigenvalues that the events say, as the path goes from one stored
+/// point to another; empty where the path turns or branches, and where a mode passes through infinity.
+std::optional<int> change_by_events(const CheckedFile& file, std::size_t from, std::size_t to) {
+  const LociFile& loci = file.loci;
+  for (std::size_t step = from; step < to; ++step) {
+    for (const DenseBlock& block : loci.steps[step].blocks) {
+      if (block.chart == Chart::reciprocal) return std::nullopt;
+    }
+  }
+  int change = 0;
+  for (const Event& event : file.events) {
+    const auto node = static_cast<std::size_t>(event.node);
+    if (node < from || node > to) continue;
+    const bool on_axis = event.kind == EventKind::collision && event.direction != 0;
+    if (on_axis || event.kind == EventKind::fold || event.kind == EventKind::branch_point)
+      return std::nullopt;
+    if (node == from) continue;
+    const int members = event.kind == EventKind::flutter ? 2 : event.kind == EventKind::divergence ? 1 : 0;
+    change += (loci.p[node] > loci.p[node - 1] ? members : -members) * event.direction;
+  }
+  return change;
+}
+
+/// Whether every mode of a point goes on with the step behind it, and none passes through infinity there.
+bool goes_on(const CheckedFile& file, std::size_t step) {
+  const ComplexVector s = file.loci.eigenvalues_at(PathPosition{step, 0.0});
+  Eigen::Index modes = 0;
+  for (const DenseBlock& block : file.loci.steps[step].blocks) {
+    if (block.chart == Chart::reciprocal) return false;
+    modes += static_cast<Eigen::Index>(block.modes.size());
+  }
+  return modes == (s.array().isFinite()).count();
+}
+
+bool has_collision(const CheckedFile& file, std::size_t from, std::size_t to) {
+  return std::any_of(file.events.begin(), file.events.end(), [&](const Event& event) {
+    const auto node = static_cast<std::size_t>(event.node);
+    return node >= from && node <= to &&
+           (event.kind == EventKind::collision || event.kind == EventKind::fold ||
+            event.kind == EventKind::branch_point);
+  });
+}
+
+std::string between(const CheckedFile& file, std::size_t from, std::size_t to) {
+  const auto [low, high] = std::minmax(file.loci.p[from], file.loci.p[to]);
+  return "between " + file.at(low) + " and " + few_digits(high);
+}
+
+void compare_counts(const CheckedFile& file, Comparison& result) {
+  const LociFile& loci = file.loci;
+  const std::vector<Permanence> permanence = permanence_of_modes(loci, file.accuracy);
+  std::optional<std::size_t> known;
+  std::vector<Census> counts;
+  std::size_t compared = 0;
+  for (std::size_t node = 0; node < loci.n_nodes(); ++node) {
+    counts.push_back(census_at(file, node, permanence));
+    const Census& here = counts.back();
+    if (node > 0 && goes_on(file, node - 1) && here.all == counts[node - 1].all &&
+        here.real != counts[node - 1].real && !has_collision(file, node - 1, node))
+      result.faults.push_back(between(file, node - 1, node) +
+                              " the number of real eigenvalues changes without a collision");
+    if (!here.knows_growing) continue;
+    if (known && counts[*known].all == here.all) {
+      const std::optional<int> told = change_by_events(file, *known, node);
+      const int seen = here.growing - counts[*known].growing;
+      compared += told ? 1 : 0;
+      if (told && *told != seen)
+        result.faults.push_back(between(file, *known, node) +
+                                " the number of growing eigenvalues changes by " + std::to_string(seen) +
+                                ", by the special points " + std::to_string(*told));
+    }
+    known = node;
+  }
+  result.compared = "numbers of growing and of real eigenvalues on " + count_text(compared, "step") +
+                    " against the special points";
+}
+
+/// Whether some mode grows, and whether all decay, beyond the errors at a place. Modes that are zero
+/// throughout do not count.
+struct Growth {
+  bool grows = false, all_decay = true;
+};
+
+Growth growth_at(const CheckedFile& file, const PathPosition& place,
+                 const std::vector<Permanence>& permanence) {
+  const double level = place.t == 0.0 ? vanishing_real_part : file.accuracy.tolerance;
+  const ComplexVector s = file.loci.eigenvalues_at(place);
+  const Vector errors = eigenvalue_errors(file.loci, place, s, level, file.accuracy);
+  Growth growth;
+  for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
+    if (!std::isfinite(s[mode].real()) || permanence[static_cast<std::size_t>(mode)] == Permanence::zero)
+      continue;
+    growth.grows = growth.grows || s[mode].real() > errors[mode];
+    growth.all_decay = growth.all_decay && s[mode].real() < -errors[mode];
+  }
+  return growth;
+}
+
+/// Whether p lies between the ends of a range, by more than `margin`.
+bool holds(const StableRange& range, double p, double margin) {
+  const auto [low, high] = std::minmax(range.from.p, range.to.p);
+  return low + margin < p && p < high - margin;
+}
+
+void compare_ranges(const CheckedFile& file, Comparison& result) {
+  constexpr double accuracy_of_ends = 1e-9;  // share of the range of the parameter
+  const LociFile& loci = file.loci;
+  const bool ascends = std::is_sorted(loci.p.begin(), loci.p.end());
+  if (!loci.ranges || loci.data_errors || (!ascends && !std::is_sorted(loci.p.rbegin(), loci.p.rend())))
+    return;
+  const double margin = accuracy_of_ends * (loci.highest() - loci.lowest());
+  const std::vector<Permanence> permanence = permanence_of_modes(loci, file.accuracy);
+  for (std::size_t step = 0; step < loci.steps.size(); ++step) {
+    for (const double t : {0.0, 0.5}) {
+      const double p = loci.parameter_at({step, t});
+      const Growth growth = growth_at(file, {step, t}, permanence);
+      const auto is_in = [&](double by) {
+        return std::any_of(loci.ranges->begin(), loci.ranges->end(),
+                           [&](const StableRange& range) { return holds(range, p, by); });
+      };
+      if (growth.grows && is_in(margin))
+        result.faults.push_back("a mode grows at " + file.at(p) + ", within a stable range");
+      if (growth.all_decay && file.setup.options.modes.is_all() && !is_in(-margin))
+        result.faults.push_back("all modes decay at " + file.at(p) + ", outside the stable ranges");
+    }
+  }
+  result.compared += ", " + count_text(loci.ranges->size(), "stable range") + " against the eigenvalues";
+}
+
+}  // namespace
+
+Comparison compare_stability(const CheckedFile& file) {
+  Comparison result;
+  if (!file.has_steps()) return result;
+  compare_counts(file, result);
+  compare_ranges(file, result);
+  return result;
+}
+
+}  // namespace eigentrail
