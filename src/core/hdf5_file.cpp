@@ -1,131 +1,188 @@
-// Opening HDF5 files, on disk and in memory, and the types of their elements.
 #include "core/hdf5_file.hpp"
 
-#include <atomic>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
 
-#include "core/hdf5_check/check.hpp"
-#include "core/hdf5_handle.hpp"
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
-
-Handle text_type() {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  check(H5Tset_size(type, H5T_VARIABLE), "make a text type");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "make a text type");
-  return type;
-}
-
-Handle complex_type() {
-  Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Complex)), H5Tclose, "make a complex type");
-  check(H5Tinsert(type, "r", 0, H5T_NATIVE_DOUBLE), "make a complex type");
-  check(H5Tinsert(type, "i", sizeof(double), H5T_NATIVE_DOUBLE), "make a complex type");
-  return type;
-}
-
-Handle memory_type(ElementType type) {
-  switch (type) {
-    case ElementType::complex:
-      return complex_type();
-    case ElementType::text:
-      return text_type();
-    case ElementType::integer:
-      return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose, "make an integer type"};
-    default:
-      return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make a real type"};
-  }
-}
-
 namespace {
 
-/// Errors are reported by exceptions; HDF5's own error messages on stderr are switched off.
-void silence_error_stack() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+/// The value of an attribute that holds a single one of this type; null if it holds something else.
+template <class Value>
+const Value* single_value(const std::map<std::string, StoredArray>& attributes, const std::string& name) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return nullptr;
+  const auto* values = std::get_if<std::vector<Value>>(&found->second.elements);
+  return values != nullptr && values->size() == 1 ? values->data() : nullptr;
+}
+
+[[noreturn]] void fail_attribute(const std::string& name, const std::string& expected) {
+  throw Hdf5Error("attribute " + name + ": expected " + expected);
+}
+
+std::string text_in(const std::map<std::string, StoredArray>& attributes, const std::string& name) {
+  const auto* text = single_value<std::string>(attributes, name);
+  if (text == nullptr) fail_attribute(name, "a text");
+  return *text;
+}
+
+/// How many rows of a shape with elements are read at once: about 8 MB.
+std::uint64_t rows_at_once(const Shape& shape) {
+  constexpr std::uint64_t elements = 1U << 20U;
+  const std::uint64_t row = element_count(shape) / (shape.empty() ? 1 : shape[0]);
+  return std::max<std::uint64_t>(elements / row, 1);
 }
 
 }  // namespace
 
-namespace {
-
-std::recursive_mutex& turn() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
-}  // namespace
-
-Hdf5Turn::Hdf5Turn() : lock_(turn()) {}
-
-Hdf5File::Hdf5File(std::unique_ptr<Implementation> implementation)
-    : implementation_(std::move(implementation)) {}
-Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
-Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
-Hdf5File::~Hdf5File() = default;
-
-Hdf5File Hdf5File::create(const std::string& path) {
-  silence_error_stack();
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + path);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
+Hdf5File::Hdf5File(ReaderProcess reader) : reader_(std::move(reader)) {
+  reader_.ask<bool>(ReaderRequest::open);
+  attributes_ = attributes("/");
 }
 
 Hdf5File Hdf5File::open(const std::string& path) {
-  silence_error_stack();
-  try {
-    check_hdf5_file(path);
-  } catch (const Hdf5Error& error) {
-    throw Hdf5Error(path + ": " + error.what());
-  }
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
-}
-
-namespace {
-
-/// Access properties of a file that stays in memory and is never written to disk by HDF5, because HDF5 does
-/// not recover from write errors. Memory grows in increments of 1 MiB.
-Handle memory_access() {
-  constexpr std::size_t increment = 1u << 20u;
-  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
-  check(H5Pset_fapl_core(access, increment, false), "keep a file in memory");
-  return access;
-}
-
-/// HDF5 treats files of equal name as the same file, so every name gets a running number.
-std::string unique_name(const std::string& name) {
-  static std::atomic<std::uint64_t> count{0};
-  return name + "#" + std::to_string(++count);
-}
-
-}  // namespace
-
-Hdf5File Hdf5File::in_memory(const std::string& name) {
-  silence_error_stack();
-  Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory_access()), H5Fclose,
-              "create " + name);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+  return Hdf5File(ReaderProcess(path));
 }
 
 Hdf5File Hdf5File::from_image(const std::string& name, std::string_view image) {
-  silence_error_stack();
-  check_hdf5_bytes(image);
-  const Handle access = memory_access();
-  check(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "take " + name);
-  Handle file(H5Fopen(unique_name(name).c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + name);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+  return Hdf5File(ReaderProcess(name, image));
 }
 
-std::string Hdf5File::image() {
-  const std::string action = "make an image of " + implementation_->path;
-  flush();
-  const ssize_t size = H5Fget_file_image(implementation_->file, nullptr, 0);
-  if (size < 0) throw Hdf5Error("HDF5 could not " + action);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(implementation_->file, bytes.data(), bytes.size()) != size)
-    throw Hdf5Error("HDF5 could not " + action);
-  return bytes;
+bool Hdf5File::has(const std::string& path) const {
+  return reader_.ask<bool>(ReaderRequest::has, path);
 }
 
-void Hdf5File::flush() {
-  check(H5Fflush(implementation_->file, H5F_SCOPE_GLOBAL), "flush " + implementation_->path);
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  return reader_.ask<std::vector<std::string>>(ReaderRequest::members, group);
+}
+
+bool Hdf5File::is_dataset(const std::string& object) const {
+  return reader_.ask<std::optional<DatasetLayout>>(ReaderRequest::layout, object).has_value();
+}
+
+DatasetLayout Hdf5File::layout(const std::string& dataset) const {
+  auto layout = reader_.ask<std::optional<DatasetLayout>>(ReaderRequest::layout, dataset);
+  if (!layout) reader_.fail(dataset + ": expected a dataset, found a group or a type");
+  return std::move(*layout);
+}
+
+Shape Hdf5File::shape(const std::string& dataset) const {
+  return layout(dataset).shape;
+}
+
+ElementType Hdf5File::element_type(const std::string& dataset) const {
+  return layout(dataset).type;
+}
+
+std::vector<std::string> Hdf5File::dimensions(const std::string& dataset) const {
+  return reader_.ask<std::vector<std::string>>(ReaderRequest::dimensions, dataset);
+}
+
+/// `block`: the shape of the rows that are read.
+template <class Element>
+std::vector<Element> Hdf5File::read_rows(const std::string& dataset, std::uint64_t first,
+                                         const Shape& block) const {
+  const auto type = static_cast<ElementType>(StoredElements(std::vector<Element>()).index());
+  const std::uint64_t rows = block.empty() ? 1 : block[0];
+  auto elements = reader_.ask<StoredElements>(ReaderRequest::read, dataset, type, first, rows);
+  auto* read = std::get_if<std::vector<Element>>(&elements);
+  if (read == nullptr || read->size() != element_count(block))
+    reader_.fail("dataset " + dataset + " is damaged");
+  return std::move(*read);
+}
+
+template <class Element>
+std::vector<Element> Hdf5File::read_all(const std::string& dataset) const {
+  Shape block = shape(dataset);
+  if (element_count(block) == 0) return {};
+  const std::uint64_t rows = block.empty() ? 1 : block[0], step = rows_at_once(block);
+  if (rows <= step) return read_rows<Element>(dataset, 0, block);
+  std::vector<Element> all;
+  all.reserve(element_count(block));
+  for (std::uint64_t first = 0; first < rows; first += step) {
+    block[0] = std::min(step, rows - first);
+    std::vector<Element> part = read_rows<Element>(dataset, first, block);
+    all.insert(all.end(), std::move_iterator(part.begin()), std::move_iterator(part.end()));
+  }
+  return all;
+}
+
+StoredArray Hdf5File::read(const std::string& dataset) const {
+  const DatasetLayout found = layout(dataset);
+  switch (found.type) {
+    case ElementType::real:
+      return {found.shape, read_real(dataset)};
+    case ElementType::complex:
+      return {found.shape, read_complex(dataset)};
+    case ElementType::integer:
+      return {found.shape, read_integers(dataset)};
+    default:
+      return {found.shape, read_texts(dataset)};
+  }
+}
+
+std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
+  return read_all<double>(dataset);
+}
+
+std::vector<Complex> Hdf5File::read_complex(const std::string& dataset) const {
+  return read_all<Complex>(dataset);
+}
+
+std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
+  return read_all<std::int64_t>(dataset);
+}
+
+std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {
+  return read_all<std::string>(dataset);
+}
+
+std::vector<Complex> Hdf5File::read_complex_row(const std::string& dataset, std::uint64_t row) const {
+  Shape block = shape(dataset);
+  if (block.empty() || row >= block[0])
+    reader_.fail("dataset " + dataset + " has no row " + std::to_string(row));
+  block[0] = 1;
+  return read_rows<Complex>(dataset, row, block);
+}
+
+std::map<std::string, StoredArray> Hdf5File::attributes(const std::string& object) const {
+  return reader_.ask<std::map<std::string, StoredArray>>(ReaderRequest::attributes, object);
+}
+
+std::string Hdf5File::text_attribute(const std::string& name) const {
+  return text_in(attributes_, name);
+}
+
+std::string Hdf5File::text_attribute(const std::string& dataset, const std::string& name) const {
+  const auto all = attributes(dataset);
+  return all.contains(name) ? text_in(all, name) : "";
+}
+
+/// Integers are read as real numbers, too; MATLAB writes every number as a real one.
+double Hdf5File::real_attribute(const std::string& name) const {
+  if (const auto* integer = single_value<std::int64_t>(attributes_, name))
+    return static_cast<double>(*integer);
+  const auto* real = single_value<double>(attributes_, name);
+  if (real == nullptr) fail_attribute(name, "a number");
+  return *real;
+}
+
+std::int64_t Hdf5File::integer_attribute(const std::string& name) const {
+  if (const auto* integer = single_value<std::int64_t>(attributes_, name)) return *integer;
+  constexpr double largest = 9007199254740992.0;  // up to here every whole number is a double
+  const double value = real_attribute(name);
+  if (!(std::abs(value) <= largest) || value != std::floor(value))
+    fail_attribute(name, "a whole number, found " + exact_text(value));
+  return static_cast<std::int64_t>(value);
+}
+
+std::vector<std::string> Hdf5File::attribute_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : attributes_) names.push_back(name);
+  return names;
 }
 
 }  // namespace eigentrail

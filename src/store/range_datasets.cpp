@@ -37,7 +37,7 @@ constexpr std::array<RangeDataset, 10> datasets{{
      "1: no mode of the whole model grows; 0: no followed mode grows, others are not known"},
 }};
 
-void create(Hdf5File& file, const std::string& unit) {
+void create(Hdf5Writer& file, const std::string& unit) {
   file.create_dataset({"range",
                        ElementType::integer,
                        {0},
@@ -73,9 +73,9 @@ bool is_range_dataset(const std::string& name) {
                      [&name](const RangeDataset& dataset) { return dataset.name == name; });
 }
 
-void write_stable_ranges(Hdf5File& file, const std::string& parameter,
+void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges) {
-  create(file, file.text_attribute(parameter, "units"));
+  create(file, file.units(parameter));
   if (ranges.empty()) return;
   std::vector<std::int64_t> numbers, modes, whole;
   std::vector<double> from, to, margins, least, largest, largest_at;

@@ -1,0 +1,56 @@
+// Files of HDF5 and MATLAB are read in another process, because the libraries that read them trust the
+// contents of a file: a damaged one can make them crash, hang or take all memory. That process, src/reader,
+// has the file open and answers requests for names, attributes and parts of arrays. Its memory and time are
+// limited, and it can open no other file. Its program is embedded into this library.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/archive.hpp"
+#include "core/hdf5_types.hpp"
+#include "core/reader_requests.hpp"
+
+namespace eigentrail {
+
+/// A process that has one file open. Not thread-safe. All functions throw Hdf5Error; its message begins with
+/// the name of the file.
+class ReaderProcess {
+ public:
+  /// For a file on disk, or for its bytes; `name` is used in messages.
+  explicit ReaderProcess(const std::string& path);
+  ReaderProcess(const std::string& name, std::string_view image);
+
+  /// The answer to a request. Throws Hdf5Error with the reason if there is none: the file has not what was
+  /// asked for, or the process crashed, met a limit or answered nonsense.
+  template <class Answer, class... Arguments>
+  Answer ask(ReaderRequest request, const Arguments&... arguments) const {
+    const std::string message = exchange(packed(request, arguments...));
+    try {
+      ArchiveReader archive(message);
+      bool done = false;
+      archive(done);
+      if (!done) fail(archive);
+      Answer answer{};
+      archive(answer);
+      archive.finish();
+      return answer;
+    } catch (const ArchiveError&) {
+      fail("is damaged: reading it led to nonsense");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  [[noreturn]] void fail(ArchiveReader& archive) const;
+  std::string exchange(const std::string& request) const;
+  void start(int file);
+
+  struct Connection;
+  std::string name_;
+  std::shared_ptr<Connection> connection_;
+};
+
+}  // namespace eigentrail

@@ -1,0 +1,234 @@
+#include "reader/hdf5_source.hpp"
+
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace eigentrail::reader {
+namespace {
+
+Handle opened(const char* path) {
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0 && H5Fis_hdf5(path) <= 0) throw Hdf5Error("is no HDF5 file");
+  return {file, H5Fclose, "open it; it is damaged or cut off"};
+}
+
+Shape shape_of(hid_t space, const std::string& name) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) fail_hdf5("read the shape of " + name);
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
+  return {dims.begin(), dims.end()};
+}
+
+/// Nothing for a type that eigentrail does not write.
+std::optional<ElementType> type_of(hid_t stored) {
+  switch (H5Tget_class(stored)) {
+    case H5T_FLOAT:
+      return ElementType::real;
+    case H5T_COMPOUND:
+      return ElementType::complex;
+    case H5T_INTEGER:
+      return ElementType::integer;
+    case H5T_STRING:
+      return ElementType::text;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Fills memory with elements of a given type.
+using Read = std::function<herr_t(hid_t, void*)>;
+
+/// Reads texts of fixed length, as MATLAB and NumPy write them, or of variable length, as h5py does. `shape`
+/// has the number of texts. Bytes are taken as UTF-8.
+std::vector<std::string> read_texts(hid_t stored, hid_t shape, std::size_t count, const Read& read,
+                                    const std::string& action) {
+  if (H5Tget_class(stored) != H5T_STRING) throw Hdf5Error("HDF5 could not " + action + ": it is not a text");
+  // A memory type of another character set would not be converted.
+  const Handle type(H5Tcopy(stored), H5Tclose, action);
+  std::vector<std::string> texts;
+  if (H5Tis_variable_str(stored) > 0) {
+    std::vector<char*> raw(count, nullptr);
+    check(read(type, raw.data()), action);
+    for (const char* text : raw) texts.emplace_back(text == nullptr ? "" : text);
+    H5Dvlen_reclaim(type, shape, H5P_DEFAULT, raw.data());
+    return texts;
+  }
+  const std::size_t size = H5Tget_size(stored);
+  const bool spaces = H5Tget_strpad(stored) == H5T_STR_SPACEPAD;
+  if (size == 0 || count > max_elements / size) throw Hdf5Error("HDF5 could not " + action + ": too large");
+  std::vector<char> raw(count * size);
+  check(read(type, raw.data()), action);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string text(raw.data() + i * size, size);
+    text.erase(std::min(text.find('\0'), text.size()));
+    if (spaces) text.erase(text.find_last_not_of(' ') + 1);
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+template <class Element>
+std::vector<Element> read_numbers(ElementType type, std::size_t count, const Read& read,
+                                  const std::string& action) {
+  std::vector<Element> numbers(count);
+  check(read(memory_type(type), numbers.data()), action);
+  return numbers;
+}
+
+StoredElements read_elements(ElementType type, hid_t stored, hid_t shape, std::size_t count, const Read& read,
+                             const std::string& action) {
+  switch (type) {
+    case ElementType::real:
+      return read_numbers<double>(type, count, read, action);
+    case ElementType::complex:
+      return read_numbers<Complex>(type, count, read, action);
+    case ElementType::integer:
+      return read_numbers<std::int64_t>(type, count, read, action);
+    default:
+      return read_texts(stored, shape, count, read, action);
+  }
+}
+
+/// Refuses data that are elsewhere, and shapes far larger than what is stored: a few bytes of damage could
+/// otherwise make a reader take all memory. Up to 64 KiB (small empty datasets), or sixteen times what is
+/// stored (modes that were added late in a trace), may be unwritten; they read as fill values.
+void check_storage(hid_t set, hid_t space, const Shape& shape, std::size_t element, const std::string& name) {
+  const Handle properties(H5Dget_create_plist(set), H5Pclose, "read how " + name + " is stored");
+  const H5D_layout_t layout = H5Pget_layout(properties);
+  if (layout == H5D_VIRTUAL || H5Pget_external_count(properties) != 0)
+    throw Hdf5Error("the data of " + name + " are in another file or dataset; copy them into this one");
+  hsize_t stored = H5Dget_storage_size(set);
+  if (layout == H5D_CHUNKED) {
+    std::vector<hsize_t> chunk(shape.size());
+    check(H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()),
+          "read the chunks of " + name);
+    check(H5Dget_num_chunks(set, space, &stored), "count the chunks of " + name);
+    stored *= element * element_count({chunk.begin(), chunk.end()});
+  }
+  constexpr std::uint64_t unwritten_multiple = 16, unwritten_bytes = 1U << 16U;
+  const std::uint64_t count = element_count(shape);
+  if (count > max_elements ||
+      count * element / unwritten_multiple > stored + unwritten_bytes / unwritten_multiple)
+    throw Hdf5Error(name + " is too large: more elements than the file holds");
+}
+
+constexpr std::uint64_t most_in_attribute = 1U << 16U;
+
+std::optional<StoredArray> read_attribute(hid_t object, const char* name) {
+  const std::string action = "read attribute " + std::string(name);
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, action);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, action);
+  const std::optional<ElementType> type = type_of(stored);
+  if (!type || *type == ElementType::complex) return std::nullopt;
+  const Handle space(H5Aget_space(attribute), H5Sclose, action);
+  if (H5Sget_simple_extent_type(space) == H5S_NULL) return std::nullopt;
+  Shape shape = shape_of(space, action);
+  const std::uint64_t count = element_count(shape);
+  if (count > most_in_attribute) throw Hdf5Error("HDF5 could not " + action + ": too large");
+  const Read read = [&](hid_t memory, void* to) { return H5Aread(attribute, memory, to); };
+  return StoredArray{std::move(shape), read_elements(*type, stored, space, count, read, action)};
+}
+
+}  // namespace
+
+Hdf5Source::Hdf5Source(const char* path) : file_(opened(path)) {}
+
+bool Hdf5Source::has(const std::string& path) const {
+  // A path exists if all its leading parts exist.
+  for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
+    if (H5Lexists(file_, path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (slash == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> Hdf5Source::members(const std::string& group) const {
+  const Handle handle(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose, "open group " + group);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list group " + group);
+  return names;
+}
+
+Hdf5Source::Dataset& Hdf5Source::dataset(const std::string& name) {
+  if (last_ && last_->name == name) return *last_;
+  last_.reset();
+  const std::string action = "open dataset " + name;
+  Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, action);
+  Handle stored(H5Dget_type(set), H5Tclose, action);
+  const Handle space(H5Dget_space(set), H5Sclose, action);
+  Shape shape = shape_of(space, name);
+  check_storage(set, space, shape, H5Tget_size(stored), name);
+  return last_.emplace(Dataset{name, std::move(set), std::move(stored), std::move(shape)});
+}
+
+std::optional<DatasetLayout> Hdf5Source::layout(const std::string& name) {
+  const Handle object(H5Oopen(file_, name.c_str(), H5P_DEFAULT), H5Oclose, "open dataset " + name);
+  if (H5Iget_type(object) != H5I_DATASET) return std::nullopt;
+  const Dataset& found = dataset(name);
+  const std::optional<ElementType> type = type_of(found.stored);
+  if (!type) throw Hdf5Error("dataset " + name + ": expected real or complex numbers, integers or texts");
+  return DatasetLayout{*type, found.shape};
+}
+
+StoredElements Hdf5Source::read(const std::string& name, ElementType type, std::uint64_t first,
+                                std::uint64_t rows) {
+  const std::string action = "read dataset " + name;
+  Dataset& from = dataset(name);
+  Shape block = from.shape;
+  const Handle space(H5Dget_space(from.set), H5Sclose, action);
+  if (!block.empty()) {
+    if (first > block[0] || rows > block[0] - first)
+      throw Hdf5Error("HDF5 could not " + action + ": no such rows");
+    block[0] = rows;
+    std::vector<hsize_t> start(block.size(), 0);
+    start[0] = first;
+    const std::vector<hsize_t> size(block.begin(), block.end());
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), action);
+  }
+  const std::vector<hsize_t> size(block.begin(), block.end());
+  const Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose,
+                      action);
+  const Read read = [&](hid_t kind, void* to) {
+    return H5Dread(from.set, kind, memory, space, H5P_DEFAULT, to);
+  };
+  return read_elements(type, from.stored, memory, element_count(block), read, action);
+}
+
+std::map<std::string, StoredArray> Hdf5Source::attributes(const std::string& name) const {
+  const Handle object(H5Oopen(file_, name.c_str(), H5P_DEFAULT), H5Oclose, "open " + name);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* attribute, const H5A_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(attribute);
+    return 0;
+  };
+  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names),
+        "list attributes of " + name);
+  std::map<std::string, StoredArray> attributes;
+  for (const std::string& attribute : names) {
+    if (std::optional<StoredArray> value = read_attribute(object, attribute.c_str()))
+      attributes.emplace(attribute, std::move(*value));
+  }
+  return attributes;
+}
+
+std::vector<std::string> Hdf5Source::dimensions(const std::string& name) {
+  const Dataset& of = dataset(name);
+  std::vector<std::string> names;
+  const auto take = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
+    std::string path(static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(scale, nullptr, 0), 0)), '\0');
+    H5Iget_name(scale, path.data(), path.size() + 1);
+    static_cast<std::vector<std::string>*>(list)->push_back(path.substr(path.rfind('/') + 1));
+    return 1;  // the first scale only
+  };
+  for (unsigned i = 0; i < of.shape.size(); ++i)
+    check(H5DSiterate_scales(of.set, i, nullptr, take, &names), "read the dimensions of " + name);
+  return names;
+}
+
+}  // namespace eigentrail::reader
