@@ -10,31 +10,27 @@
 namespace eigentrail {
 namespace {
 
-/// The value of an attribute that holds a single one of this type; null if it holds something else.
-template <class Value>
-const Value* single_value(const std::map<std::string, StoredArray>& attributes, const std::string& name) {
-  const auto found = attributes.find(name);
-  if (found == attributes.end()) return nullptr;
-  const auto* values = std::get_if<std::vector<Value>>(&found->second.elements);
-  return values != nullptr && values->size() == 1 ? values->data() : nullptr;
+std::size_t size_of(const StoredArray& array) {
+  return std::visit([](const auto& list) { return list.size(); }, array.elements);
 }
 
-[[noreturn]] void fail_attribute(const std::string& name, const std::string& expected) {
-  throw Hdf5Error("attribute " + name + ": expected " + expected);
+/// Integers count as real numbers, and whole real numbers as integers. Nothing for other types.
+template <class To, class From>
+std::optional<To> converted(const From& value) {
+  if constexpr (std::is_same_v<To, double> && std::is_same_v<From, std::int64_t>)
+    return static_cast<double>(value);
+  if constexpr (std::is_same_v<To, std::int64_t> && std::is_same_v<From, double>) {
+    constexpr double largest = 9007199254740992.0;  // up to here every whole number is a double
+    if (std::abs(value) <= largest && value == std::floor(value)) return static_cast<std::int64_t>(value);
+  }
+  return std::nullopt;
 }
 
-std::string text_in(const std::map<std::string, StoredArray>& attributes, const std::string& name) {
-  const auto* text = single_value<std::string>(attributes, name);
-  if (text == nullptr) fail_attribute(name, "a text");
-  return *text;
-}
-
-/// How many rows of a shape with elements are read at once: about 8 MB.
-std::uint64_t rows_at_once(const Shape& shape) {
-  constexpr std::uint64_t elements = 1U << 20U;
-  const std::uint64_t row = element_count(shape) / (shape.empty() ? 1 : shape[0]);
-  return std::max<std::uint64_t>(elements / row, 1);
-}
+template <class Element>
+constexpr const char* name_of_type = std::is_same_v<Element, double>         ? "real numbers"
+                                     : std::is_same_v<Element, Complex>      ? "complex numbers"
+                                     : std::is_same_v<Element, std::int64_t> ? "whole numbers"
+                                                                             : "texts";
 
 }  // namespace
 
@@ -60,129 +56,114 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
 }
 
 bool Hdf5File::is_dataset(const std::string& object) const {
-  return reader_.ask<std::optional<DatasetLayout>>(ReaderRequest::layout, object).has_value();
-}
-
-DatasetLayout Hdf5File::layout(const std::string& dataset) const {
-  auto layout = reader_.ask<std::optional<DatasetLayout>>(ReaderRequest::layout, dataset);
-  if (!layout) reader_.fail(dataset + ": expected a dataset, found a group or a type");
-  return std::move(*layout);
+  return reader_.ask<std::optional<StoredArray>>(ReaderRequest::read, object).has_value();
 }
 
 Shape Hdf5File::shape(const std::string& dataset) const {
-  return layout(dataset).shape;
+  return rows(dataset, 0, 0).shape;
 }
 
-ElementType Hdf5File::element_type(const std::string& dataset) const {
-  return layout(dataset).type;
-}
-
-std::vector<std::string> Hdf5File::dimensions(const std::string& dataset) const {
-  return reader_.ask<std::vector<std::string>>(ReaderRequest::dimensions, dataset);
-}
-
-/// `block`: the shape of the rows that are read.
-template <class Element>
-std::vector<Element> Hdf5File::read_rows(const std::string& dataset, std::uint64_t first,
-                                         const Shape& block) const {
-  const auto type = static_cast<ElementType>(StoredElements(std::vector<Element>()).index());
-  const std::uint64_t rows = block.empty() ? 1 : block[0];
-  auto elements = reader_.ask<StoredElements>(ReaderRequest::read, dataset, type, first, rows);
-  auto* read = std::get_if<std::vector<Element>>(&elements);
-  if (read == nullptr || read->size() != element_count(block))
-    reader_.fail("dataset " + dataset + " is damaged");
-  return std::move(*read);
-}
-
-template <class Element>
-std::vector<Element> Hdf5File::read_all(const std::string& dataset) const {
-  Shape block = shape(dataset);
-  if (element_count(block) == 0) return {};
-  const std::uint64_t rows = block.empty() ? 1 : block[0], step = rows_at_once(block);
-  if (rows <= step) return read_rows<Element>(dataset, 0, block);
-  std::vector<Element> all;
-  all.reserve(element_count(block));
-  for (std::uint64_t first = 0; first < rows; first += step) {
-    block[0] = std::min(step, rows - first);
-    std::vector<Element> part = read_rows<Element>(dataset, first, block);
-    all.insert(all.end(), std::move_iterator(part.begin()), std::move_iterator(part.end()));
-  }
-  return all;
+StoredArray Hdf5File::rows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
+  auto array = reader_.ask<std::optional<StoredArray>>(ReaderRequest::read, dataset, first, count);
+  if (!array) fail(dataset + ": expected a dataset, found a group or a type");
+  return std::move(*array);
 }
 
 StoredArray Hdf5File::read(const std::string& dataset) const {
-  const DatasetLayout found = layout(dataset);
-  switch (found.type) {
-    case ElementType::real:
-      return {found.shape, read_real(dataset)};
-    case ElementType::complex:
-      return {found.shape, read_complex(dataset)};
-    case ElementType::integer:
-      return {found.shape, read_integers(dataset)};
-    default:
-      return {found.shape, read_texts(dataset)};
+  StoredArray all = rows(dataset, 0, max_elements);
+  const std::uint64_t count = element_count(all.shape);
+  while (size_of(all) > 0 && size_of(all) < count) {
+    StoredArray part = rows(dataset, size_of(all) / (count / all.shape[0]), max_elements);
+    std::visit(
+        [](auto& to, auto& from) {
+          if constexpr (std::is_same_v<decltype(to), decltype(from)>)
+            to.insert(to.end(), std::move_iterator(from.begin()), std::move_iterator(from.end()));
+        },
+        all.elements, part.elements);
+    if (size_of(part) == 0) break;
   }
+  if (size_of(all) != count) fail("dataset " + dataset + " is damaged");
+  return all;
+}
+
+template <class Element>
+std::vector<Element> Hdf5File::elements(StoredArray array, const std::string& name) const {
+  if (auto* same = std::get_if<std::vector<Element>>(&array.elements)) return std::move(*same);
+  std::vector<Element> result;
+  const auto add_all = [&](const auto& list) {
+    for (const auto& value : list) {
+      const std::optional<Element> element = converted<Element>(value);
+      if (!element) fail(name + ": expected " + name_of_type<Element>);
+      result.push_back(*element);
+    }
+  };
+  std::visit(add_all, array.elements);
+  return result;
 }
 
 std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
-  return read_all<double>(dataset);
+  return elements<double>(read(dataset), "dataset " + dataset);
 }
 
 std::vector<Complex> Hdf5File::read_complex(const std::string& dataset) const {
-  return read_all<Complex>(dataset);
+  return elements<Complex>(read(dataset), "dataset " + dataset);
 }
 
 std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
-  return read_all<std::int64_t>(dataset);
+  return elements<std::int64_t>(read(dataset), "dataset " + dataset);
 }
 
 std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {
-  return read_all<std::string>(dataset);
+  return elements<std::string>(read(dataset), "dataset " + dataset);
 }
 
 std::vector<Complex> Hdf5File::read_complex_row(const std::string& dataset, std::uint64_t row) const {
-  Shape block = shape(dataset);
-  if (block.empty() || row >= block[0])
-    reader_.fail("dataset " + dataset + " has no row " + std::to_string(row));
-  block[0] = 1;
-  return read_rows<Complex>(dataset, row, block);
+  return elements<Complex>(rows(dataset, row, 1), "dataset " + dataset);
 }
 
 std::map<std::string, StoredArray> Hdf5File::attributes(const std::string& object) const {
   return reader_.ask<std::map<std::string, StoredArray>>(ReaderRequest::attributes, object);
 }
 
+template <class Element>
+Element Hdf5File::attribute(const std::map<std::string, StoredArray>& attributes,
+                            const std::string& name) const {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) fail("has no attribute " + name);
+  const std::vector<Element> values = elements<Element>(found->second, "attribute " + name);
+  if (values.size() != 1) fail("attribute " + name + ": expected a single value");
+  return values[0];
+}
+
 std::string Hdf5File::text_attribute(const std::string& name) const {
-  return text_in(attributes_, name);
+  return attribute<std::string>(attributes_, name);
+}
+
+double Hdf5File::real_attribute(const std::string& name) const {
+  return attribute<double>(attributes_, name);
+}
+
+std::int64_t Hdf5File::integer_attribute(const std::string& name) const {
+  return attribute<std::int64_t>(attributes_, name);
 }
 
 std::string Hdf5File::text_attribute(const std::string& dataset, const std::string& name) const {
   const auto all = attributes(dataset);
-  return all.contains(name) ? text_in(all, name) : "";
+  return all.contains(name) ? attribute<std::string>(all, name) : "";
 }
 
-/// Integers are read as real numbers, too; MATLAB writes every number as a real one.
-double Hdf5File::real_attribute(const std::string& name) const {
-  if (const auto* integer = single_value<std::int64_t>(attributes_, name))
-    return static_cast<double>(*integer);
-  const auto* real = single_value<double>(attributes_, name);
-  if (real == nullptr) fail_attribute(name, "a number");
-  return *real;
-}
-
-std::int64_t Hdf5File::integer_attribute(const std::string& name) const {
-  if (const auto* integer = single_value<std::int64_t>(attributes_, name)) return *integer;
-  constexpr double largest = 9007199254740992.0;  // up to here every whole number is a double
-  const double value = real_attribute(name);
-  if (!(std::abs(value) <= largest) || value != std::floor(value))
-    fail_attribute(name, "a whole number, found " + exact_text(value));
-  return static_cast<std::int64_t>(value);
-}
-
-std::vector<std::string> Hdf5File::attribute_names() const {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : attributes_) names.push_back(name);
-  return names;
+std::map<std::string, std::string> Hdf5File::attribute_texts() const {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, value] : attributes_) {
+    if (size_of(value) != 1) continue;
+    if (const auto* text = std::get_if<std::vector<std::string>>(&value.elements))
+      texts[name] = text->front();
+    if (const auto* real = std::get_if<std::vector<double>>(&value.elements))
+      texts[name] = exact_text(real->front());
+    if (const auto* integer = std::get_if<std::vector<std::int64_t>>(&value.elements))
+      texts[name] = std::to_string(integer->front());
+  }
+  return texts;
 }
 
 }  // namespace eigentrail

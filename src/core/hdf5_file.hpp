@@ -19,19 +19,19 @@ class Hdf5File {
   /// From the bytes of a file; `name` is used in messages.
   static Hdf5File from_image(const std::string& name, std::string_view image);
 
+  /// Throws Hdf5Error: contents that contradict each other.
+  [[noreturn]] void fail(const std::string& reason) const { reader_.fail(reason); }
+
   bool has(const std::string& path) const;
   /// Names of the members of a group in alphabetical order; "/" is the root group.
   std::vector<std::string> members(const std::string& group) const;
   /// Whether an object is a dataset, not a group or a named type.
   bool is_dataset(const std::string& object) const;
   Shape shape(const std::string& dataset) const;
-  /// Throws Hdf5Error for a type that eigentrail does not write.
-  ElementType element_type(const std::string& dataset) const;
-  /// Names of the scales of its dimensions; fewer than it has dimensions where some have none.
-  std::vector<std::string> dimensions(const std::string& dataset) const;
 
   /// A whole dataset in the type in which it is stored.
   StoredArray read(const std::string& dataset) const;
+  /// Real numbers may be stored as integers, and integers as real numbers, as MATLAB does.
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;
   /// Reads one row (first index).
@@ -39,7 +39,8 @@ class Hdf5File {
   std::vector<std::int64_t> read_integers(const std::string& dataset) const;
   std::vector<std::string> read_texts(const std::string& dataset) const;
 
-  /// The attributes of an object that are numbers or texts.
+  /// The attributes of an object that are numbers or texts. DIMENSION_LIST has the names of a dataset's
+  /// dimensions.
   std::map<std::string, StoredArray> attributes(const std::string& object) const;
 
   /// Attributes of the root group.
@@ -47,17 +48,18 @@ class Hdf5File {
   std::string text_attribute(const std::string& name) const;
   double real_attribute(const std::string& name) const;
   std::int64_t integer_attribute(const std::string& name) const;
-  std::vector<std::string> attribute_names() const;
+  /// Those that are single values, as texts.
+  std::map<std::string, std::string> attribute_texts() const;
   /// A text attribute of a dataset; empty if it does not exist.
   std::string text_attribute(const std::string& dataset, const std::string& name) const;
 
  private:
   explicit Hdf5File(ReaderProcess reader);
-  DatasetLayout layout(const std::string& dataset) const;
+  StoredArray rows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const;
   template <class Element>
-  std::vector<Element> read_rows(const std::string& dataset, std::uint64_t first, const Shape& block) const;
+  std::vector<Element> elements(StoredArray array, const std::string& name) const;
   template <class Element>
-  std::vector<Element> read_all(const std::string& dataset) const;
+  Element attribute(const std::map<std::string, StoredArray>& attributes, const std::string& name) const;
 
   ReaderProcess reader_;
   std::map<std::string, StoredArray> attributes_;

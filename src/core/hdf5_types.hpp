@@ -1,22 +1,21 @@
 // What HDF5 files of eigentrail hold.
 #pragma once
 
-#include <complex>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
 
 /// A failed HDF5 call, or a file that cannot be read. The message says what was tried, on which object and in
 /// which file.
-class Hdf5Error : public std::runtime_error {
+class Hdf5Error : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 /// Complex numbers are stored as the compound {r, i}, which h5py reads as complex128.
@@ -24,29 +23,16 @@ enum class ElementType { real, complex, integer, text };
 
 using Shape = std::vector<std::uint64_t>;
 
-/// The elements of an array, row-major; alternatives in the order of ElementType.
-using StoredElements = std::variant<std::vector<double>, std::vector<Complex>, std::vector<std::int64_t>,
-                                    std::vector<std::string>>;
-
-/// A dataset or an attribute. A single value has no dimensions.
+/// A dataset, the first rows of one, or an attribute. A single value has no dimensions.
 struct StoredArray {
   Shape shape;
-  StoredElements elements;
+  /// Row-major; alternatives in the order of ElementType.
+  std::variant<std::vector<double>, std::vector<Complex>, std::vector<std::int64_t>, std::vector<std::string>>
+      elements;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit(self.shape, self.elements);
-  }
-};
-
-/// What a dataset is, without its elements.
-struct DatasetLayout {
-  ElementType type = ElementType::real;
-  Shape shape;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit(self.type, self.shape);
   }
 };
 

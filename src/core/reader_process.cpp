@@ -3,11 +3,11 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -122,10 +122,10 @@ struct ReaderProcess::Connection {
 
 ReaderProcess::ReaderProcess(const std::string& path) : name_(path) {
   try {
-    const ReaderDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-    struct stat status {};
-    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) fail("is no plain file");
-    start(file);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+      throw Hdf5Error(path + ": no such file, or not a plain file");
+    start(ReaderDescriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC)));
   } catch (const std::system_error& error) {
     fail(error.what());
   }
@@ -157,15 +157,8 @@ std::string ReaderProcess::exchange(const std::string& request) const {
   fail(end_of(connection_->status));
 }
 
-void ReaderProcess::fail(ArchiveReader& archive) const {
-  std::string reason;
-  archive(reason);
-  archive.finish();
-  fail(reason);
-}
-
 void ReaderProcess::fail(const std::string& reason) const {
-  throw Hdf5Error(name_ + ": " + printable(reason));
+  throw Hdf5Error(name_ + ": cannot be read: " + printable(reason));
 }
 
 }  // namespace eigentrail

@@ -24,18 +24,20 @@ class ReaderProcess {
 
   /// The answer to a request. Throws Hdf5Error with the reason if there is none: the file has not what was
   /// asked for, or the process crashed, met a limit or answered nonsense.
-  template <class Answer, class... Arguments>
-  Answer ask(ReaderRequest request, const Arguments&... arguments) const {
-    const std::string message = exchange(packed(request, arguments...));
+  template <class Answer>
+  Answer ask(ReaderRequest request, const std::string& name = "", std::uint64_t first = 0,
+             std::uint64_t rows = 0) const {
+    const std::string message = exchange(packed(request, name, first, rows));
     try {
-      ArchiveReader archive(message);
       bool done = false;
+      ArchiveReader archive(message);
       archive(done);
-      if (!done) fail(archive);
       Answer answer{};
-      archive(answer);
+      std::string reason;
+      done ? archive(answer) : archive(reason);
       archive.finish();
-      return answer;
+      if (done) return answer;
+      fail(reason);
     } catch (const ArchiveError&) {
       fail("is damaged: reading it led to nonsense");
     }
@@ -44,7 +46,6 @@ class ReaderProcess {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
-  [[noreturn]] void fail(ArchiveReader& archive) const;
   std::string exchange(const std::string& request) const;
   void start(int file);
 

@@ -8,18 +8,14 @@ namespace eigentrail {
 namespace {
 
 std::vector<NamedArray> read_variables(const std::string& path) {
-  try {
-    const ReaderProcess reader(path);
-    auto arrays = reader.ask<std::vector<NamedArray>>(ReaderRequest::matlab);
-    for (const NamedArray& array : arrays) {
-      if (array.strides.size() != array.shape.size() ||
-          array.size() != (array.is_text ? array.texts.size() : array.numbers.size()))
-        reader.fail("variable " + array.name + " is damaged");
-    }
-    return arrays;
-  } catch (const Hdf5Error& error) {
-    throw InputError(error.what());
+  const ReaderProcess reader(path);
+  auto arrays = reader.ask<std::vector<NamedArray>>(ReaderRequest::matlab);
+  for (const NamedArray& array : arrays) {
+    if (array.strides.size() != array.shape.size() ||
+        array.size() != (array.is_text ? array.texts.size() : array.numbers.size()))
+      reader.fail("variable " + array.name + " is damaged");
   }
+  return arrays;
 }
 
 Imported read_matlab(const ImportRequest& request) {

@@ -24,18 +24,13 @@ Shape shape_of(hid_t space, const std::string& name) {
 
 /// Nothing for a type that eigentrail does not write.
 std::optional<ElementType> type_of(hid_t stored) {
-  switch (H5Tget_class(stored)) {
-    case H5T_FLOAT:
-      return ElementType::real;
-    case H5T_COMPOUND:
-      return ElementType::complex;
-    case H5T_INTEGER:
-      return ElementType::integer;
-    case H5T_STRING:
-      return ElementType::text;
-    default:
-      return std::nullopt;
-  }
+  const H5T_class_t kind = H5Tget_class(stored);
+  if (kind == H5T_FLOAT) return ElementType::real;
+  if (kind == H5T_INTEGER) return ElementType::integer;
+  if (kind == H5T_STRING) return ElementType::text;
+  const bool is_complex = kind == H5T_COMPOUND && H5Tget_member_index(stored, "r") == 0 &&
+                          H5Tget_member_index(stored, "i") == 1 && H5Tget_nmembers(stored) == 2;
+  return is_complex ? std::optional(ElementType::complex) : std::nullopt;
 }
 
 /// Fills memory with elements of a given type.
@@ -45,10 +40,10 @@ using Read = std::function<herr_t(hid_t, void*)>;
 /// has the number of texts. Bytes are taken as UTF-8.
 std::vector<std::string> read_texts(hid_t stored, hid_t shape, std::size_t count, const Read& read,
                                     const std::string& action) {
-  if (H5Tget_class(stored) != H5T_STRING) throw Hdf5Error("HDF5 could not " + action + ": it is not a text");
   // A memory type of another character set would not be converted.
   const Handle type(H5Tcopy(stored), H5Tclose, action);
   std::vector<std::string> texts;
+  if (count == 0) return texts;
   if (H5Tis_variable_str(stored) > 0) {
     std::vector<char*> raw(count, nullptr);
     check(read(type, raw.data()), action);
@@ -74,12 +69,12 @@ template <class Element>
 std::vector<Element> read_numbers(ElementType type, std::size_t count, const Read& read,
                                   const std::string& action) {
   std::vector<Element> numbers(count);
-  check(read(memory_type(type), numbers.data()), action);
+  if (count > 0) check(read(memory_type(type), numbers.data()), action);
   return numbers;
 }
 
-StoredElements read_elements(ElementType type, hid_t stored, hid_t shape, std::size_t count, const Read& read,
-                             const std::string& action) {
+decltype(StoredArray::elements) read_elements(ElementType type, hid_t stored, hid_t shape, std::size_t count,
+                                              const Read& read, const std::string& action) {
   switch (type) {
     case ElementType::real:
       return read_numbers<double>(type, count, read, action);
@@ -121,15 +116,29 @@ std::optional<StoredArray> read_attribute(hid_t object, const char* name) {
   const std::string action = "read attribute " + std::string(name);
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, action);
   const Handle stored(H5Aget_type(attribute), H5Tclose, action);
-  const std::optional<ElementType> type = type_of(stored);
-  if (!type || *type == ElementType::complex) return std::nullopt;
   const Handle space(H5Aget_space(attribute), H5Sclose, action);
-  if (H5Sget_simple_extent_type(space) == H5S_NULL) return std::nullopt;
+  const std::optional<ElementType> type = type_of(stored);
+  if (!type || *type == ElementType::complex || H5Sget_simple_extent_type(space) == H5S_NULL)
+    return std::nullopt;
   Shape shape = shape_of(space, action);
   const std::uint64_t count = element_count(shape);
   if (count > most_in_attribute) throw Hdf5Error("HDF5 could not " + action + ": too large");
   const Read read = [&](hid_t memory, void* to) { return H5Aread(attribute, memory, to); };
   return StoredArray{std::move(shape), read_elements(*type, stored, space, count, read, action)};
+}
+
+/// The names of the scales of a dataset's dimensions; fewer than it has dimensions where some have none.
+std::vector<std::string> names_of_scales(hid_t set, unsigned rank) {
+  std::vector<std::string> names;
+  const auto take = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
+    std::string path(static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(scale, nullptr, 0), 0)), '\0');
+    H5Iget_name(scale, path.data(), path.size() + 1);
+    static_cast<std::vector<std::string>*>(list)->push_back(path.substr(path.rfind('/') + 1));
+    return 1;  // the first scale only
+  };
+  for (unsigned i = 0; i < rank; ++i)
+    check(H5DSiterate_scales(set, i, nullptr, take, &names), "read the names of the dimensions");
+  return names;
 }
 
 }  // namespace
@@ -155,49 +164,48 @@ std::vector<std::string> Hdf5Source::members(const std::string& group) const {
   return names;
 }
 
-Hdf5Source::Dataset& Hdf5Source::dataset(const std::string& name) {
-  if (last_ && last_->name == name) return *last_;
+/// Null for objects that are no datasets.
+const Hdf5Source::Dataset* Hdf5Source::dataset(const std::string& name) {
+  if (last_ && last_->name == name) return &*last_;
   last_.reset();
   const std::string action = "open dataset " + name;
-  Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, action);
+  Handle set(H5Oopen(file_, name.c_str(), H5P_DEFAULT), H5Oclose, action);
+  if (H5Iget_type(set) != H5I_DATASET) return nullptr;
   Handle stored(H5Dget_type(set), H5Tclose, action);
-  const Handle space(H5Dget_space(set), H5Sclose, action);
+  Handle space(H5Dget_space(set), H5Sclose, action);
+  const std::optional<ElementType> type = type_of(stored);
+  if (!type) throw Hdf5Error("dataset " + name + ": expected real or complex numbers, integers or texts");
   Shape shape = shape_of(space, name);
   check_storage(set, space, shape, H5Tget_size(stored), name);
-  return last_.emplace(Dataset{name, std::move(set), std::move(stored), std::move(shape)});
+  last_.emplace(Dataset{name, std::move(set), std::move(stored), std::move(space), *type, std::move(shape)});
+  return &*last_;
 }
 
-std::optional<DatasetLayout> Hdf5Source::layout(const std::string& name) {
-  const Handle object(H5Oopen(file_, name.c_str(), H5P_DEFAULT), H5Oclose, "open dataset " + name);
-  if (H5Iget_type(object) != H5I_DATASET) return std::nullopt;
-  const Dataset& found = dataset(name);
-  const std::optional<ElementType> type = type_of(found.stored);
-  if (!type) throw Hdf5Error("dataset " + name + ": expected real or complex numbers, integers or texts");
-  return DatasetLayout{*type, found.shape};
-}
-
-StoredElements Hdf5Source::read(const std::string& name, ElementType type, std::uint64_t first,
-                                std::uint64_t rows) {
+std::optional<StoredArray> Hdf5Source::read(const std::string& name, std::uint64_t first,
+                                            std::uint64_t rows) {
   const std::string action = "read dataset " + name;
-  Dataset& from = dataset(name);
-  Shape block = from.shape;
-  const Handle space(H5Dget_space(from.set), H5Sclose, action);
+  const Dataset* from = dataset(name);
+  if (from == nullptr) return std::nullopt;
+  Shape start(from->shape.size(), 0), block = from->shape;
   if (!block.empty()) {
-    if (first > block[0] || rows > block[0] - first)
-      throw Hdf5Error("HDF5 could not " + action + ": no such rows");
-    block[0] = rows;
-    std::vector<hsize_t> start(block.size(), 0);
-    start[0] = first;
-    const std::vector<hsize_t> size(block.begin(), block.end());
-    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), action);
+    constexpr std::uint64_t elements_at_once = 1U << 20U;
+    const std::uint64_t row = element_count(block) / std::max<std::uint64_t>(block[0], 1);
+    start[0] = std::min(first, block[0]);
+    const std::uint64_t fitting =
+        std::max<std::uint64_t>(elements_at_once / std::max<std::uint64_t>(row, 1), 1);
+    block[0] = std::min({rows, fitting, block[0] - start[0]});
   }
-  const std::vector<hsize_t> size(block.begin(), block.end());
+  const std::vector<hsize_t> from_row(start.begin(), start.end()), size(block.begin(), block.end());
+  if (!size.empty())
+    check(H5Sselect_hyperslab(from->space, H5S_SELECT_SET, from_row.data(), nullptr, size.data(), nullptr),
+          action);
   const Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose,
                       action);
-  const Read read = [&](hid_t kind, void* to) {
-    return H5Dread(from.set, kind, memory, space, H5P_DEFAULT, to);
+  const Read read = [&](hid_t type, void* to) {
+    return H5Dread(from->set, type, memory, from->space, H5P_DEFAULT, to);
   };
-  return read_elements(type, from.stored, memory, element_count(block), read, action);
+  const std::uint64_t count = element_count(block);
+  return StoredArray{from->shape, read_elements(from->type, from->stored, memory, count, read, action)};
 }
 
 std::map<std::string, StoredArray> Hdf5Source::attributes(const std::string& name) const {
@@ -211,24 +219,16 @@ std::map<std::string, StoredArray> Hdf5Source::attributes(const std::string& nam
         "list attributes of " + name);
   std::map<std::string, StoredArray> attributes;
   for (const std::string& attribute : names) {
-    if (std::optional<StoredArray> value = read_attribute(object, attribute.c_str()))
-      attributes.emplace(attribute, std::move(*value));
+    std::optional<StoredArray> value = read_attribute(object, attribute.c_str());
+    if (attribute == "DIMENSION_LIST" && H5Iget_type(object) == H5I_DATASET) {
+      const Handle space(H5Dget_space(object), H5Sclose, "read the shape of " + name);
+      std::vector<std::string> scales =
+          names_of_scales(object, static_cast<unsigned>(shape_of(space, name).size()));
+      value = StoredArray{{scales.size()}, std::move(scales)};
+    }
+    if (value) attributes.emplace(attribute, std::move(*value));
   }
   return attributes;
-}
-
-std::vector<std::string> Hdf5Source::dimensions(const std::string& name) {
-  const Dataset& of = dataset(name);
-  std::vector<std::string> names;
-  const auto take = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
-    std::string path(static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(scale, nullptr, 0), 0)), '\0');
-    H5Iget_name(scale, path.data(), path.size() + 1);
-    static_cast<std::vector<std::string>*>(list)->push_back(path.substr(path.rfind('/') + 1));
-    return 1;  // the first scale only
-  };
-  for (unsigned i = 0; i < of.shape.size(); ++i)
-    check(H5DSiterate_scales(of.set, i, nullptr, take, &names), "read the dimensions of " + name);
-  return names;
 }
 
 }  // namespace eigentrail::reader

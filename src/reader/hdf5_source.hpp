@@ -19,19 +19,18 @@ class Hdf5Source {
 
   bool has(const std::string& path) const;
   std::vector<std::string> members(const std::string& group) const;
-  std::optional<DatasetLayout> layout(const std::string& dataset);
-  StoredElements read(const std::string& dataset, ElementType type, std::uint64_t first, std::uint64_t rows);
+  std::optional<StoredArray> read(const std::string& dataset, std::uint64_t first, std::uint64_t rows);
   std::map<std::string, StoredArray> attributes(const std::string& object) const;
-  std::vector<std::string> dimensions(const std::string& dataset);
 
  private:
   /// The dataset that was asked for last stays open: its parts are read one after the other.
   struct Dataset {
     std::string name;
-    Handle set, stored;
+    Handle set, stored, space;
+    ElementType type;
     Shape shape;
   };
-  Dataset& dataset(const std::string& name);
+  const Dataset* dataset(const std::string& name);
 
   Handle file_;
   std::optional<Dataset> last_;

@@ -4,7 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <exception>
+#include <new>
 
 #include "core/archive.hpp"
 #include "core/reader_requests.hpp"
@@ -19,8 +21,7 @@ const char* const file_path = "/proc/self/fd/3";  // reader_file
 void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
   rlimit limits{};
   getrlimit(resource, &limits);
-  limits.rlim_cur = most < limits.rlim_max ? most : limits.rlim_max;
-  limits.rlim_max = limits.rlim_cur;
+  limits.rlim_cur = limits.rlim_max = std::min(most, limits.rlim_max);
   setrlimit(resource, &limits);
 }
 
@@ -29,81 +30,54 @@ void open_nothing_else() {
   limit(RLIMIT_NOFILE, 0);
 }
 
-/// What a request may take: for the contents of usual files, and in proportion to the size of this one.
-struct Allowance {
-  rlim_t memory = rlim_t{768} << 20U;  ///< bytes
-  unsigned seconds = 5;
-
-  explicit Allowance(std::uint64_t file_bytes) {
-    memory += 4 * file_bytes;
-    seconds += static_cast<unsigned>(file_bytes / 10'000'000);
-  }
-};
-
-class Server {
- public:
-  std::string answer(const std::string& message) {
-    try {
-      ArchiveReader arguments(message);
-      ReaderRequest request{};
-      arguments(request);
-      return answer(request, arguments);
-    } catch (const std::bad_alloc&) {
-      return packed(false, std::string("is damaged, or needs more memory than a file of its size may take"));
-    } catch (const std::exception& error) {
-      return packed(false, std::string(error.what()));
-    }
-  }
-
- private:
-  std::string answer(ReaderRequest request, ArchiveReader& arguments) {
-    std::string name;
-    if (request == ReaderRequest::matlab) return packed(true, read_matlab(file_path, open_nothing_else));
-    if (request == ReaderRequest::open) {
-      hdf5_.emplace(file_path);
+std::string answer(std::optional<Hdf5Source>& file, const std::string& message) {
+  ReaderRequest request{};
+  std::string name;
+  std::uint64_t first = 0, rows = 0;
+  unpack(message, request, name, first, rows);
+  switch (request) {
+    case ReaderRequest::matlab:
+      return packed(true, read_matlab(file_path, open_nothing_else));
+    case ReaderRequest::open:
+      file.emplace(file_path);
       open_nothing_else();
       return packed(true, true);
-    }
-    arguments(name);
-    switch (request) {
-      case ReaderRequest::has:
-        return packed(true, hdf5_->has(name));
-      case ReaderRequest::members:
-        return packed(true, hdf5_->members(name));
-      case ReaderRequest::layout:
-        return packed(true, hdf5_->layout(name));
-      case ReaderRequest::attributes:
-        return packed(true, hdf5_->attributes(name));
-      case ReaderRequest::dimensions:
-        return packed(true, hdf5_->dimensions(name));
-      default:
-        return read(name, arguments);
-    }
+    case ReaderRequest::has:
+      return packed(true, file->has(name));
+    case ReaderRequest::members:
+      return packed(true, file->members(name));
+    case ReaderRequest::attributes:
+      return packed(true, file->attributes(name));
+    default:
+      return packed(true, file->read(name, first, rows));
   }
+}
 
-  std::string read(const std::string& name, ArchiveReader& arguments) {
-    ElementType type{};
-    std::uint64_t first = 0, rows = 0;
-    arguments(type, first, rows);
-    return packed(true, hdf5_->read(name, type, first, rows));
+std::string answer_or_reason(std::optional<Hdf5Source>& file, const std::string& message) {
+  try {
+    return answer(file, message);
+  } catch (const std::bad_alloc&) {
+    return packed(false, std::string("is damaged, or needs more memory than a file of its size may take"));
+  } catch (const std::exception& error) {
+    return packed(false, std::string(error.what()));
   }
+}
 
-  std::optional<Hdf5Source> hdf5_;
-};
-
+/// What a request may take: for the contents of usual files, and in proportion to the size of this one.
 int serve() {
-  struct stat file {};
-  if (fstat(reader_file, &file) != 0) return 1;
-  const Allowance allowance(static_cast<std::uint64_t>(file.st_size));
-  limit(RLIMIT_AS, allowance.memory);
+  struct stat status {};
+  if (fstat(reader_file, &status) != 0) return 1;
+  const auto bytes = static_cast<std::uint64_t>(status.st_size);
+  limit(RLIMIT_AS, (768U << 20U) + 4 * bytes);
   limit(RLIMIT_CORE, 0);
+  const auto seconds = static_cast<unsigned>(5 + bytes / 10'000'000);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  Server server;
+  std::optional<Hdf5Source> file;
   while (const std::optional<std::string> request = receive_message(reader_socket)) {
-    alarm(allowance.seconds);  // ends the process
-    const std::string answer = server.answer(*request);
+    alarm(seconds);  // ends the process
+    const std::string found = answer_or_reason(file, *request);
     alarm(0);
-    if (!send_message(reader_socket, answer)) return 1;
+    if (!send_message(reader_socket, found)) return 1;
   }
   return 0;
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr int samples_per_step = 24;
 
 void require_fit(bool fits, const std::string& dataset) {
-  if (!fits) throw Hdf5Error(dataset + " does not fit the other datasets");
+  if (!fits) file.fail(dataset + " does not fit the other datasets");
 }
 
 Json axis(const Hdf5File& file, const std::string& name) {
@@ -103,7 +103,7 @@ Json boundary_data(const Hdf5File& file) {
   const auto extent = file.read_real("curve_extent");
   const std::size_t n = kinds.size();
   if (modes.size() != n || begins.size() != n || ends.size() != n || extent.size() != 4 * n)
-    throw Hdf5Error("the datasets of curves do not fit each other");
+    file.fail("the datasets of curves do not fit each other");
   data["curves"] = Json::array();
   if (n > 0) {
     const BoundaryCurves curves(file);

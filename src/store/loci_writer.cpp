@@ -172,8 +172,8 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
   last_shapes.resize(tables.modes());
   rows.eigenvalue.resize(begin + tables.modes(), Complex(nan, nan));
   rows.eigenvalue_derivative.resize(begin + tables.modes(), Complex(nan, nan));
-  for (auto* column :
-       {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual, &rows.condition, &rows.rounding})
+  for (auto* column : {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual,
+                       &rows.condition, &rows.rounding})
     column->resize(begin + tables.modes(), nan);
   rows.mode_shape.resize((begin + tables.modes()) * coordinates, Complex(nan, nan));
   const bool spins = has_whirl(model.description());

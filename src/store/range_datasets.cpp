@@ -116,7 +116,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
     if (dataset.name == whole_model && !file.has(whole_model)) continue;
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
     if (file.shape(dataset.name) != expected)
-      throw Hdf5Error(std::string(dataset.name) + " does not fit the other datasets");
+      file.fail(std::string(dataset.name) + " does not fit the other datasets");
   }
   const auto from = file.read_real("stable_from");
   const auto to = file.read_real("stable_to");
@@ -126,21 +126,21 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   const auto modes = file.read_integers("stable_mode");
   for (const std::int64_t mode : modes) {
     if (mode > static_cast<std::int64_t>(n_modes))
-      throw Hdf5Error("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
+      file.fail("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
   }
   const auto least = file.read_real("stable_least_margin");
   const auto largest = file.read_real("stable_largest_margin");
   const auto largest_at = file.read_real("stable_largest_at");
-  const auto whole = file.has(whole_model) ? file.read_integers(whole_model) : std::vector<std::int64_t>(count);
+  const auto whole =
+      file.has(whole_model) ? file.read_integers(whole_model) : std::vector<std::int64_t>(count);
   std::vector<StableRange> ranges;
   for (std::size_t i = 0; i < count; ++i) {
     const auto end = [&](double p, std::size_t at) {
       const int mode = modes[at] < 0 ? -1 : static_cast<int>(modes[at]) - 1;
       return RangeEnd{p, causes[at], margins[at], mode};
     };
-    ranges.push_back(
-        {kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i], largest_at[i],
-         whole[i] == 1});
+    ranges.push_back({kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i],
+                      largest_at[i], whole[i] == 1});
   }
   return ranges;
 }

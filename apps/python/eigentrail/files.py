@@ -28,7 +28,7 @@ COORDINATES = {
     "eigentrail-accuracy": ["method", "run_tolerance", "order", "sample_parameter"],
 }
 
-Contents = tuple[dict[str, Any], dict[str, Any]]  # {name: (names of dimensions, array, attributes)}, {name: value}
+Contents = tuple[dict[str, Any], dict[str, Any]]  # {name: (array, attributes)} of the datasets; attributes of the file
 
 
 def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
@@ -82,7 +82,7 @@ def part_like(like: xarray.Dataset, contents: Contents) -> xarray.Dataset:
     """The same, in less time: `like` is that part of a file of the same scene, which has the same names of dimensions and
     attributes of datasets."""
     datasets, attributes = contents
-    values = {name: array for name, (_, array, _) in datasets.items()}
+    values = {name: array for name, (array, _) in datasets.items()}
     values["natural_frequency"] = values["frequency"]
     values["event_kind"], values["event_modes"] = _event_fields(values["events"])
     variables = {name: xarray.Variable(like[name].dims, array, like[name].attrs, fastpath=True)
@@ -127,11 +127,11 @@ def _dataset(contents: Contents) -> xarray.Dataset:
     datasets, of_file = contents
     variables: dict[str, Any] = {}
     labels: set[str] = set()
-    for name, (dimensions, array, attributes) in datasets.items():
+    for name, (array, attributes) in datasets.items():
         shown = {key: value for key, value in attributes.items() if key not in NOT_ATTRIBUTES}
-        variables[name] = (dimensions or [name] * array.ndim, array, shown)
+        variables[name] = (tuple(attributes.get("DIMENSION_LIST", (name,) * array.ndim)), array, shown)
         labels.update(attributes.get("coordinates", "").split())
-    coordinates = {name: value for name, value in variables.items() if value[0] == [name] or name in labels}
+    coordinates = {name: value for name, value in variables.items() if value[0] == (name,) or name in labels}
     return xarray.Dataset({name: value for name, value in variables.items() if name not in coordinates}, coordinates, of_file)
 
 

@@ -67,7 +67,6 @@ py::dict as_python(const std::map<std::string, StoredArray>& attributes) {
 
 struct NamedDataset {
   std::string name;
-  std::vector<std::string> dimensions;
   StoredArray array;
   std::map<std::string, StoredArray> attributes;
 };
@@ -81,31 +80,29 @@ std::vector<NamedDataset> datasets_in(const Hdf5File& file, std::vector<std::str
   }
   std::vector<NamedDataset> datasets;
   for (const std::string& name : names) {
-    if (file.is_dataset(name))
-      datasets.push_back({name, file.dimensions(name), file.read(name), file.attributes(name)});
+    if (file.is_dataset(name)) datasets.push_back({name, file.read(name), file.attributes(name)});
   }
   return datasets;
 }
 
-/// The datasets of a file, {name: (names of dimensions, array, attributes)}, and its attributes. `names`:
-/// only those of them that the file has, and the traced parameter; empty: all. Other threads of Python run
-/// while the file is read. Throws ValueError if the file, called `called`, is no HDF5 file or damaged.
+/// The datasets of a file, {name: (array, attributes)}, and its attributes. The attribute DIMENSION_LIST of a
+/// dataset has the names of its dimensions. `names`: only those of them that the file has, and the traced
+/// parameter; empty: all. Other threads of Python run while the file is read. Throws InputError if the file,
+/// called `called`, is no HDF5 file or damaged.
 std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called,
                                         const std::vector<std::string>& names) {
   const std::string_view bytes = image;
   std::vector<NamedDataset> datasets;
   std::map<std::string, StoredArray> attributes;
-  try {
+  {
     const py::gil_scoped_release released;
     const Hdf5File file = Hdf5File::from_image(called, bytes);
     attributes = file.attributes("/");
     datasets = datasets_in(file, names);
-  } catch (const Hdf5Error& error) {
-    throw py::value_error(error.what());
   }
   py::dict result;
-  for (const auto& [name, dimensions, array, of_dataset] : datasets)
-    result[as_text(name)] = py::make_tuple(dimensions, as_numpy(array), as_python(of_dataset));
+  for (const auto& [name, array, of_dataset] : datasets)
+    result[as_text(name)] = py::make_tuple(as_numpy(array), as_python(of_dataset));
   return {result, as_python(attributes)};
 }
 
