@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -34,17 +35,20 @@ constexpr const char* name_of_type = std::is_same_v<Element, double>         ? "
 
 }  // namespace
 
-Hdf5File::Hdf5File(ReaderProcess reader) : reader_(std::move(reader)) {
-  reader_.ask<bool>(ReaderRequest::open);
+Hdf5File::Hdf5File(const std::string& name, ReaderRequest request, const std::string& what) : reader_(name) {
+  reader_.ask<bool>(request, what);
   attributes_ = attributes("/");
 }
 
 Hdf5File Hdf5File::open(const std::string& path) {
-  return Hdf5File(ReaderProcess(path));
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw Hdf5Error(path + ": no such file, or not a plain file");
+  return {path, ReaderRequest::open, path};
 }
 
 Hdf5File Hdf5File::from_image(const std::string& name, std::string_view image) {
-  return Hdf5File(ReaderProcess(name, image));
+  return {name, ReaderRequest::open_image, std::string(image)};
 }
 
 bool Hdf5File::has(const std::string& path) const {

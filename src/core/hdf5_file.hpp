@@ -21,6 +21,9 @@ class Hdf5File {
 
   /// Throws Hdf5Error: contents that contradict each other.
   [[noreturn]] void fail(const std::string& reason) const { reader_.fail(reason); }
+  void require_fit(bool fits, const std::string& dataset) const {
+    if (!fits) fail(dataset + " does not fit the other datasets");
+  }
 
   bool has(const std::string& path) const;
   /// Names of the members of a group in alphabetical order; "/" is the root group.
@@ -54,7 +57,7 @@ class Hdf5File {
   std::string text_attribute(const std::string& dataset, const std::string& name) const;
 
  private:
-  explicit Hdf5File(ReaderProcess reader);
+  Hdf5File(const std::string& name, ReaderRequest request, const std::string& what);
   StoredArray rows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const;
   template <class Element>
   std::vector<Element> elements(StoredArray array, const std::string& name) const;

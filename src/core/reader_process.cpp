@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -20,11 +19,12 @@ extern "C" const char eigentrail_reader_program_end[];  // NOLINT
 
 namespace eigentrail {
 
-/// A descriptor that is closed with its owner. It stands above those that the reading process gets.
+/// A descriptor that is closed with its owner. It is none of the standard ones, which the reading process
+/// replaces.
 class ReaderDescriptor {
  public:
   explicit ReaderDescriptor(int number)
-      : number_(number < 0 ? -1 : fcntl(number, F_DUPFD_CLOEXEC, reader_file + 1)) {
+      : number_(number < 0 ? -1 : fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)) {
     if (number_ < 0) {
       const int error = errno;
       if (number >= 0) close(number);
@@ -45,34 +45,25 @@ class ReaderDescriptor {
 
 namespace {
 
-ReaderDescriptor file_in_memory(const char* name, std::string_view bytes) {
-  ReaderDescriptor file(memfd_create(name, MFD_CLOEXEC));
-  while (!bytes.empty()) {
-    const ssize_t written = write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category());
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+ReaderDescriptor program_in_memory() {
+  ReaderDescriptor file(memfd_create("eigentrail-reader", MFD_CLOEXEC));
+  for (const char* at = eigentrail_reader_program; at != eigentrail_reader_program_end;) {
+    const ssize_t written = write(file, at, static_cast<std::size_t>(eigentrail_reader_program_end - at));
+    if (written < 0) throw std::system_error(errno, std::generic_category());
+    at += written;
   }
   return file;
 }
 
-/// The program as a file, made once.
-int reader_program() {
-  static const ReaderDescriptor file =
-      file_in_memory("eigentrail-reader",
-                     {eigentrail_reader_program,
-                      static_cast<std::size_t>(eigentrail_reader_program_end - eigentrail_reader_program)});
-  return file;
-}
-
-/// Starts the program with a socket and a file. It is in a process group of its own, so that Ctrl-C in a
-/// terminal does not end it before the process that asks.
-pid_t start_reader(int socket, int file) {
+/// Starts the program with a socket. It is in a process group of its own, so that Ctrl-C in a terminal does
+/// not end it before the process that asks.
+pid_t start_reader(int socket) {
+  static const ReaderDescriptor program = program_in_memory();
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
   posix_spawnattr_init(&attributes);
   posix_spawn_file_actions_adddup2(&actions, socket, reader_socket);
-  posix_spawn_file_actions_adddup2(&actions, file, reader_file);
   for (const int output : {STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
   sigset_t none, all;
@@ -82,15 +73,14 @@ pid_t start_reader(int socket, int file) {
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setflags(&attributes,
                            POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  const std::string program = "/proc/self/fd/" + std::to_string(reader_program());
+  const std::string path = "/proc/self/fd/" + std::to_string(program);
   std::string name = "eigentrail-reader";
   char* const arguments[] = {name.data(), nullptr};
   pid_t process = 0;
-  const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, arguments, environ);
+  const int error = posix_spawn(&process, path.c_str(), &actions, &attributes, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
-  if (error != 0)
-    throw std::system_error(error, std::generic_category(), "no process can be started to read it");
+  if (error != 0) throw std::system_error(error, std::generic_category());
   return process;
 }
 
@@ -120,33 +110,17 @@ struct ReaderProcess::Connection {
   ~Connection() { end(); }
 };
 
-ReaderProcess::ReaderProcess(const std::string& path) : name_(path) {
+ReaderProcess::ReaderProcess(const std::string& name) : name_(name) {
   try {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-      throw Hdf5Error(path + ": no such file, or not a plain file");
-    start(ReaderDescriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC)));
+    int ends[2] = {-1, -1};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw std::system_error(errno, std::generic_category());
+    ReaderDescriptor ours(ends[0]);
+    const ReaderDescriptor theirs(ends[1]);
+    connection_.reset(new Connection{std::move(ours), start_reader(theirs)});
   } catch (const std::system_error& error) {
-    fail(error.what());
+    fail(std::string("no process can be started to read it: ") + error.what());
   }
-}
-
-ReaderProcess::ReaderProcess(const std::string& name, std::string_view image) : name_(name) {
-  try {
-    start(file_in_memory("eigentrail-file", image));
-  } catch (const std::system_error& error) {
-    fail(error.what());
-  }
-}
-
-void ReaderProcess::start(int file) {
-  int ends[2] = {-1, -1};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw std::system_error(errno, std::generic_category());
-  ReaderDescriptor ours(ends[0]);
-  const ReaderDescriptor theirs(ends[1]);
-  const pid_t process = start_reader(theirs, file);
-  connection_.reset(new Connection{std::move(ours), process});
 }
 
 std::string ReaderProcess::exchange(const std::string& request) const {

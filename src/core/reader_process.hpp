@@ -6,7 +6,6 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "core/archive.hpp"
 #include "core/hdf5_types.hpp"
@@ -18,9 +17,8 @@ namespace eigentrail {
 /// the name of the file.
 class ReaderProcess {
  public:
-  /// For a file on disk, or for its bytes; `name` is used in messages.
-  explicit ReaderProcess(const std::string& path);
-  ReaderProcess(const std::string& name, std::string_view image);
+  /// For the file called `name` in messages, which is opened by the first request.
+  explicit ReaderProcess(const std::string& name);
 
   /// The answer to a request. Throws Hdf5Error with the reason if there is none: the file has not what was
   /// asked for, or the process crashed, met a limit or answered nonsense.
@@ -47,7 +45,6 @@ class ReaderProcess {
 
  private:
   std::string exchange(const std::string& request) const;
-  void start(int file);
 
   struct Connection;
   std::string name_;

@@ -1,18 +1,8 @@
 // What the process that reads a file is asked, and how requests and answers travel: both are archives
 // (core/archive.hpp) with their length in front.
 //
-// A request has a name, and for `read` the first row and the number of rows:
-//
-// open                  bool: true; the first request for a file of HDF5
-// has, path             bool
-// members, group        std::vector<std::string>, alphabetical
-// read, dataset, rows   std::optional<StoredArray>: its shape and these rows, or those of them that fit into
-// 8 MB, at least one;
-//                       nothing for objects that are no datasets
-// attributes, object    std::map<std::string, StoredArray>: those that are numbers or texts; DIMENSION_LIST
-// is the names of scales matlab                std::vector<NamedArray>: all variables of a file of MATLAB
-//
-// An answer begins with a bool: false if a text follows that says why there is none.
+// A request has a name, and numbers of rows. An answer begins with a bool: false if a text follows that says
+// why there is none.
 #pragma once
 
 #include <sys/socket.h>
@@ -25,11 +15,20 @@
 
 namespace eigentrail {
 
-enum class ReaderRequest : std::uint8_t { open, has, members, read, attributes, matlab };
+enum class ReaderRequest : std::uint8_t {
+  open,        ///< a file of HDF5 by its path: true
+  open_image,  ///< the bytes of one: true
+  has,         ///< a path: bool
+  members,     ///< of a group: std::vector<std::string>, alphabetical
+  read,  ///< rows of a dataset: std::optional<StoredArray>, nothing for other objects. The shape is that of
+         ///< the dataset, the elements are those of the rows that fit into 8 MB, of one row at least
+  attributes,  ///< of an object: std::map<std::string, StoredArray>, those that are numbers or texts.
+               ///< DIMENSION_LIST has the names of the scales
+  matlab,      ///< all variables of a file of MATLAB by its path: std::vector<NamedArray>
+};
 
-/// Descriptors of the reading process: its end of the socket, and the file.
+/// Descriptor of the socket in the reading process.
 inline constexpr int reader_socket = 0;
-inline constexpr int reader_file = 3;
 
 /// Moves all bytes with `move`, send or recv; false if the other process has gone.
 template <class Byte, class Move>

@@ -1,4 +1,6 @@
 // Matrices from MATLAB's files of variables.
+#include <filesystem>
+
 #include "core/reader_process.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "import/formats.hpp"
@@ -8,8 +10,11 @@ namespace eigentrail {
 namespace {
 
 std::vector<NamedArray> read_variables(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path + ": no such file, or not a plain file");
   const ReaderProcess reader(path);
-  auto arrays = reader.ask<std::vector<NamedArray>>(ReaderRequest::matlab);
+  auto arrays = reader.ask<std::vector<NamedArray>>(ReaderRequest::matlab, path);
   for (const NamedArray& array : arrays) {
     if (array.strides.size() != array.shape.size() ||
         array.size() != (array.is_text ? array.texts.size() : array.numbers.size()))

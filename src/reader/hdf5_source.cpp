@@ -8,10 +8,15 @@
 namespace eigentrail::reader {
 namespace {
 
-Handle opened(const char* path) {
-  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0 && H5Fis_hdf5(path) <= 0) throw Hdf5Error("is no HDF5 file");
-  return {file, H5Fclose, "open it; it is damaged or cut off"};
+Handle opened(const std::string& path_or_bytes, bool is_image) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
+  if (is_image) {
+    check(H5Pset_fapl_core(access, 1U << 20U, false), "keep a file in memory");
+    check(H5Pset_file_image(access, const_cast<char*>(path_or_bytes.data()), path_or_bytes.size()),
+          "take a file");
+  }
+  return {H5Fopen(is_image ? "image" : path_or_bytes.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
+          "open it: it is no HDF5 file, or damaged"};
 }
 
 Shape shape_of(hid_t space, const std::string& name) {
@@ -143,7 +148,8 @@ std::vector<std::string> names_of_scales(hid_t set, unsigned rank) {
 
 }  // namespace
 
-Hdf5Source::Hdf5Source(const char* path) : file_(opened(path)) {}
+Hdf5Source::Hdf5Source(const std::string& path_or_bytes, bool is_image)
+    : file_(opened(path_or_bytes, is_image)) {}
 
 bool Hdf5Source::has(const std::string& path) const {
   // A path exists if all its leading parts exist.

@@ -15,7 +15,8 @@ namespace eigentrail::reader {
 /// An HDF5 file. All functions throw Hdf5Error; core/reader_requests.hpp says what they answer.
 class Hdf5Source {
  public:
-  explicit Hdf5Source(const char* path);
+  /// Opens a file by its path, or takes the bytes of one.
+  Hdf5Source(const std::string& path_or_bytes, bool is_image);
 
   bool has(const std::string& path) const;
   std::vector<std::string> members(const std::string& group) const;

@@ -1,11 +1,11 @@
 // The program that reads a file of HDF5 or MATLAB for another process (core/reader_process.hpp). What it has
 // open is its end of a socket and the file.
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "core/archive.hpp"
@@ -15,8 +15,6 @@
 
 namespace eigentrail::reader {
 namespace {
-
-const char* const file_path = "/proc/self/fd/3";  // reader_file
 
 void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
   rlimit limits{};
@@ -30,16 +28,28 @@ void open_nothing_else() {
   limit(RLIMIT_NOFILE, 0);
 }
 
+/// What requests may take: for the contents of usual files, and in proportion to the size of this one.
+unsigned seconds = 5;
+void allow_for(std::uint64_t bytes) {
+  limit(RLIMIT_AS, (768U << 20U) + 4 * bytes);
+  seconds += static_cast<unsigned>(bytes / 10'000'000);
+  alarm(seconds);
+}
+
 std::string answer(std::optional<Hdf5Source>& file, const std::string& message) {
   ReaderRequest request{};
   std::string name;
   std::uint64_t first = 0, rows = 0;
   unpack(message, request, name, first, rows);
+  const bool is_image = request == ReaderRequest::open_image;
   switch (request) {
     case ReaderRequest::matlab:
-      return packed(true, read_matlab(file_path, open_nothing_else));
+      allow_for(std::filesystem::file_size(name));
+      return packed(true, read_matlab(name.c_str(), open_nothing_else));
     case ReaderRequest::open:
-      file.emplace(file_path);
+    case ReaderRequest::open_image:
+      allow_for(is_image ? name.size() : std::filesystem::file_size(name));
+      file.emplace(name, is_image);
       open_nothing_else();
       return packed(true, true);
     case ReaderRequest::has:
@@ -63,14 +73,8 @@ std::string answer_or_reason(std::optional<Hdf5Source>& file, const std::string&
   }
 }
 
-/// What a request may take: for the contents of usual files, and in proportion to the size of this one.
 int serve() {
-  struct stat status {};
-  if (fstat(reader_file, &status) != 0) return 1;
-  const auto bytes = static_cast<std::uint64_t>(status.st_size);
-  limit(RLIMIT_AS, (768U << 20U) + 4 * bytes);
   limit(RLIMIT_CORE, 0);
-  const auto seconds = static_cast<unsigned>(5 + bytes / 10'000'000);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   std::optional<Hdf5Source> file;
   while (const std::optional<std::string> request = receive_message(reader_socket)) {

@@ -22,7 +22,7 @@ void write_bounds(Hdf5Writer& file, const std::string& name, const std::string& 
 }
 
 Matrix read_bounds(const Hdf5File& file, const std::string& name, std::size_t rows, std::size_t columns) {
-  if (file.shape(name) != Shape{rows, columns}) file.fail(name + " does not fit the other datasets");
+  file.require_fit(file.shape(name) == Shape{rows, columns}, name);
   if (rows * columns == 0) return Matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
   const std::vector<double> data = file.read_real(name);
   return Eigen::Map<const RowMajorReal>(data.data(), static_cast<Eigen::Index>(rows),

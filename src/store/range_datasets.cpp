@@ -115,8 +115,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   for (const RangeDataset& dataset : datasets) {
     if (dataset.name == whole_model && !file.has(whole_model)) continue;
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
-    if (file.shape(dataset.name) != expected)
-      file.fail(std::string(dataset.name) + " does not fit the other datasets");
+    file.require_fit(file.shape(dataset.name) == expected, dataset.name);
   }
   const auto from = file.read_real("stable_from");
   const auto to = file.read_real("stable_to");
