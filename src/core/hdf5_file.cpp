@@ -59,40 +59,39 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
   return reader_.ask<std::vector<std::string>>(ReaderRequest::members, group);
 }
 
-bool Hdf5File::is_dataset(const std::string& object) const {
-  return reader_.ask<std::optional<StoredArray>>(ReaderRequest::read, object).has_value();
-}
-
 Shape Hdf5File::shape(const std::string& dataset) const {
-  return rows(dataset, 0, 0).shape;
+  const std::optional<StoredArray> none = rows(dataset, 0, 0);
+  if (!none) fail(dataset + ": expected a dataset, found a group or a type");
+  return none->shape;
 }
 
-StoredArray Hdf5File::rows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
-  auto array = reader_.ask<std::optional<StoredArray>>(ReaderRequest::read, dataset, first, count);
-  if (!array) fail(dataset + ": expected a dataset, found a group or a type");
-  return std::move(*array);
+std::optional<StoredArray> Hdf5File::rows(const std::string& object, std::uint64_t first,
+                                          std::uint64_t count) const {
+  return reader_.ask<std::optional<StoredArray>>(ReaderRequest::read, object, first, count);
 }
 
-StoredArray Hdf5File::read(const std::string& dataset) const {
-  StoredArray all = rows(dataset, 0, max_elements);
-  const std::uint64_t count = element_count(all.shape);
-  while (size_of(all) > 0 && size_of(all) < count) {
-    StoredArray part = rows(dataset, size_of(all) / (count / all.shape[0]), max_elements);
-    std::visit(
-        [](auto& to, auto& from) {
-          if constexpr (std::is_same_v<decltype(to), decltype(from)>)
-            to.insert(to.end(), std::move_iterator(from.begin()), std::move_iterator(from.end()));
-        },
-        all.elements, part.elements);
-    if (size_of(part) == 0) break;
+std::optional<StoredArray> Hdf5File::read(const std::string& object) const {
+  std::optional<StoredArray> all = rows(object, 0, max_elements);
+  if (!all) return all;
+  const std::uint64_t count = element_count(all->shape);
+  std::size_t before = 0;
+  while (size_of(*all) > before && size_of(*all) < count) {
+    before = size_of(*all);
+    std::optional<StoredArray> part = rows(object, before / (count / all->shape[0]), max_elements);
+    const auto append = [](auto& to, auto& from) {
+      if constexpr (std::is_same_v<decltype(to), decltype(from)>)
+        to.insert(to.end(), std::move_iterator(from.begin()), std::move_iterator(from.end()));
+    };
+    if (part) std::visit(append, all->elements, part->elements);
   }
-  if (size_of(all) != count) fail("dataset " + dataset + " is damaged");
+  if (size_of(*all) != count) fail("dataset " + object + " is damaged");
   return all;
 }
 
 template <class Element>
-std::vector<Element> Hdf5File::elements(StoredArray array, const std::string& name) const {
-  if (auto* same = std::get_if<std::vector<Element>>(&array.elements)) return std::move(*same);
+std::vector<Element> Hdf5File::elements(std::optional<StoredArray> array, const std::string& name) const {
+  if (!array) fail(name + ": expected a dataset, found a group or a type");
+  if (auto* same = std::get_if<std::vector<Element>>(&array->elements)) return std::move(*same);
   std::vector<Element> result;
   const auto add_all = [&](const auto& list) {
     for (const auto& value : list) {
@@ -101,7 +100,7 @@ std::vector<Element> Hdf5File::elements(StoredArray array, const std::string& na
       result.push_back(*element);
     }
   };
-  std::visit(add_all, array.elements);
+  std::visit(add_all, array->elements);
   return result;
 }
 

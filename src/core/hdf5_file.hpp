@@ -28,12 +28,10 @@ class Hdf5File {
   bool has(const std::string& path) const;
   /// Names of the members of a group in alphabetical order; "/" is the root group.
   std::vector<std::string> members(const std::string& group) const;
-  /// Whether an object is a dataset, not a group or a named type.
-  bool is_dataset(const std::string& object) const;
   Shape shape(const std::string& dataset) const;
 
-  /// A whole dataset in the type in which it is stored.
-  StoredArray read(const std::string& dataset) const;
+  /// A whole dataset in the type in which it is stored; nothing for other objects, groups and named types.
+  std::optional<StoredArray> read(const std::string& object) const;
   /// Real numbers may be stored as integers, and integers as real numbers, as MATLAB does.
   std::vector<double> read_real(const std::string& dataset) const;
   std::vector<Complex> read_complex(const std::string& dataset) const;
@@ -58,9 +56,9 @@ class Hdf5File {
 
  private:
   Hdf5File(const std::string& name, ReaderRequest request, const std::string& what);
-  StoredArray rows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const;
+  std::optional<StoredArray> rows(const std::string& object, std::uint64_t first, std::uint64_t count) const;
   template <class Element>
-  std::vector<Element> elements(StoredArray array, const std::string& name) const;
+  std::vector<Element> elements(std::optional<StoredArray> array, const std::string& name) const;
   template <class Element>
   Element attribute(const std::map<std::string, StoredArray>& attributes, const std::string& name) const;
 

@@ -26,12 +26,7 @@ int read_all(const Hdf5File& file, const std::string& group = "/") {
   for (const std::string& name : file.members(group)) {
     const std::string path = group == "/" ? "/" + name : group + "/" + name;
     (void)file.attributes(path);
-    if (!file.is_dataset(path)) {
-      count += read_all(file, path);
-      continue;
-    }
-    (void)file.read(path);
-    ++count;
+    count += file.read(path) ? 1 : read_all(file, path);
   }
   return count;
 }

@@ -80,7 +80,8 @@ std::vector<NamedDataset> datasets_in(const Hdf5File& file, std::vector<std::str
   }
   std::vector<NamedDataset> datasets;
   for (const std::string& name : names) {
-    if (file.is_dataset(name)) datasets.push_back({name, file.read(name), file.attributes(name)});
+    if (std::optional<StoredArray> array = file.read(name))
+      datasets.push_back({name, std::move(*array), file.attributes(name)});
   }
   return datasets;
 }
