@@ -180,7 +180,8 @@ int run_plot(const PlotArguments& arguments) {
     return *code;
   }
   throw InputError(
-      "plot draws with Python: expected the Python for which eigentrail was built, with numpy, pandas, xarray, h5py "
+      "plot draws with Python: expected the Python for which eigentrail was built, with numpy, pandas, "
+      "xarray, h5py "
       "and matplotlib (apt install python3-matplotlib python3-xarray python3-h5py); "
       "EIGENTRAIL_PYTHON=/path/to/python3 names one; eigentrail report draws without it");
 }
