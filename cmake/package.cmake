@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
   "python3, python3-h5py, python3-matplotlib, python3-numpy, python3-pandas, python3-plotly, python3-scipy, python3-tqdm, python3-xarray")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "cmake, g++, libeigen3-dev, libhdf5-dev, liblapacke-dev, libmatio-dev, libopenblas-dev, libsuitesparse-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, zlib1g-dev")
+  "cmake, g++, libeigen3-dev, libhdf5-dev, liblapacke-dev, libopenblas-dev, libsuitesparse-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, zlib1g-dev")
 
 find_program(GZIP gzip)
 if(GZIP)

@@ -95,7 +95,8 @@ constexpr int package_missing = 97;
 constexpr const char* script = R"(import sys
 try:
     import matplotlib
-    from eigentrail import plot
+    from eigentrail import engine, plot
+    engine.engine()
 except ImportError as error:
     if sys.argv[1] == "last":
         print(f"eigentrail: {sys.executable}: {error}", file=sys.stderr)
@@ -179,9 +180,10 @@ int run_plot(const PlotArguments& arguments) {
     return *code;
   }
   throw InputError(
-      "plot draws with Python: expected Python 3.11 or later with numpy, pandas, xarray, h5py and matplotlib "
-      "(apt install python3-matplotlib python3-xarray python3-h5py); EIGENTRAIL_PYTHON=/path/to/python3 "
-      "names one; eigentrail report draws without it");
+      "plot draws with Python: expected the Python for which eigentrail was built, with numpy, pandas, "
+      "xarray, h5py "
+      "and matplotlib (apt install python3-matplotlib python3-xarray python3-h5py); "
+      "EIGENTRAIL_PYTHON=/path/to/python3 names one; eigentrail report draws without it");
 }
 
 }  // namespace

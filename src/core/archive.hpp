@@ -1,4 +1,5 @@
-// Serialization of values to bytes and back, for the state from which a trace is resumed.
+// Serialization of values to bytes and back: for the state from which a trace is resumed, and between
+// processes.
 //
 // A struct lists its members once, in fields(self, visit), a static member function or a function that is
 // found by argument-dependent lookup. Writing and reading both use that list. Reading does not trust its
@@ -16,6 +17,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "eigentrail/core/system_matrix.hpp"
@@ -64,7 +66,11 @@ class ArchiveWriter {
   template <class T>
   void write(const std::vector<T>& items) {
     count(items.size());
-    for (const T& item : items) write(item);
+    if constexpr (is_plain<T>) {
+      append(items.data(), items.size() * sizeof(T));
+    } else {
+      for (const T& item : items) write(item);
+    }
   }
   void write(const std::vector<bool>& items) {
     count(items.size());
@@ -87,6 +93,11 @@ class ArchiveWriter {
   void write(const std::optional<T>& value) {
     write(value.has_value());
     if (value) write(*value);
+  }
+  template <class... T>
+  void write(const std::variant<T...>& value) {
+    write(static_cast<std::uint8_t>(value.index()));
+    std::visit([this](const auto& item) { write(item); }, value);
   }
   template <class Scalar, int Rows>
   void write(const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& matrix) {
@@ -171,9 +182,14 @@ class ArchiveReader {
   template <class T>
   void read(std::vector<T>& items) {
     // Items are appended one by one, so a damaged count cannot allocate more items than the bytes can hold.
-    const std::size_t n = count(1);
+    const std::size_t n = count(is_plain<T> ? sizeof(T) : 1);
     items.clear();
-    for (std::size_t i = 0; i < n; ++i) read(items.emplace_back());
+    if constexpr (is_plain<T>) {
+      items.resize(n);
+      take(items.data(), n * sizeof(T));
+    } else {
+      for (std::size_t i = 0; i < n; ++i) read(items.emplace_back());
+    }
   }
   void read(std::vector<bool>& items) {
     items.assign(count(1), false);
@@ -209,6 +225,14 @@ class ArchiveReader {
     T item{};
     read(item);
     value = std::move(item);
+  }
+  template <class... T>
+  void read(std::variant<T...>& value) {
+    std::uint8_t index = 0;
+    read(index);
+    if (index >= sizeof...(T)) throw ArchiveError("none of the alternatives");
+    std::uint8_t at = 0;
+    ((at++ == index ? read(value.template emplace<T>()) : void()), ...);
   }
   template <class Scalar, int Rows>
   void read(Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& matrix) {

@@ -1,131 +1,172 @@
-// Opening HDF5 files, on disk and in memory, and the types of their elements.
 #include "core/hdf5_file.hpp"
 
-#include <atomic>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <utility>
 
-#include "core/hdf5_check/check.hpp"
-#include "core/hdf5_handle.hpp"
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
+namespace {
 
-Handle text_type() {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  check(H5Tset_size(type, H5T_VARIABLE), "make a text type");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "make a text type");
-  return type;
+std::size_t size_of(const StoredArray& array) {
+  return std::visit([](const auto& list) { return list.size(); }, array.elements);
 }
 
-Handle complex_type() {
-  Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Complex)), H5Tclose, "make a complex type");
-  check(H5Tinsert(type, "r", 0, H5T_NATIVE_DOUBLE), "make a complex type");
-  check(H5Tinsert(type, "i", sizeof(double), H5T_NATIVE_DOUBLE), "make a complex type");
-  return type;
-}
-
-Handle memory_type(ElementType type) {
-  switch (type) {
-    case ElementType::complex:
-      return complex_type();
-    case ElementType::text:
-      return text_type();
-    case ElementType::integer:
-      return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose, "make an integer type"};
-    default:
-      return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make a real type"};
+/// Integers count as real numbers, and whole real numbers as integers. Nothing for other types.
+template <class To, class From>
+std::optional<To> converted(const From& value) {
+  if constexpr (std::is_same_v<To, double> && std::is_same_v<From, std::int64_t>)
+    return static_cast<double>(value);
+  if constexpr (std::is_same_v<To, std::int64_t> && std::is_same_v<From, double>) {
+    constexpr double largest = 9007199254740992.0;  // up to here every whole number is a double
+    if (std::abs(value) <= largest && value == std::floor(value)) return static_cast<std::int64_t>(value);
   }
+  return std::nullopt;
 }
 
-namespace {
-
-/// Errors are reported by exceptions; HDF5's own error messages on stderr are switched off.
-void silence_error_stack() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
+template <class Element>
+constexpr const char* name_of_type = std::is_same_v<Element, double>         ? "real numbers"
+                                     : std::is_same_v<Element, Complex>      ? "complex numbers"
+                                     : std::is_same_v<Element, std::int64_t> ? "whole numbers"
+                                                                             : "texts";
 
 }  // namespace
 
-namespace {
-
-std::recursive_mutex& turn() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
-}  // namespace
-
-Hdf5Turn::Hdf5Turn() : lock_(turn()) {}
-
-Hdf5File::Hdf5File(std::unique_ptr<Implementation> implementation)
-    : implementation_(std::move(implementation)) {}
-Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
-Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
-Hdf5File::~Hdf5File() = default;
-
-Hdf5File Hdf5File::create(const std::string& path) {
-  silence_error_stack();
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + path);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
+Hdf5File::Hdf5File(const std::string& name, ReaderRequest request, const std::string& what) : reader_(name) {
+  reader_.ask<bool>(request, what);
+  attributes_ = attributes("/");
 }
 
 Hdf5File Hdf5File::open(const std::string& path) {
-  silence_error_stack();
-  try {
-    check_hdf5_file(path);
-  } catch (const Hdf5Error& error) {
-    throw Hdf5Error(path + ": " + error.what());
-  }
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
-}
-
-namespace {
-
-/// Access properties of a file that stays in memory and is never written to disk by HDF5, because HDF5 does
-/// not recover from write errors. Memory grows in increments of 1 MiB.
-Handle memory_access() {
-  constexpr std::size_t increment = 1u << 20u;
-  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
-  check(H5Pset_fapl_core(access, increment, false), "keep a file in memory");
-  return access;
-}
-
-/// HDF5 treats files of equal name as the same file, so every name gets a running number.
-std::string unique_name(const std::string& name) {
-  static std::atomic<std::uint64_t> count{0};
-  return name + "#" + std::to_string(++count);
-}
-
-}  // namespace
-
-Hdf5File Hdf5File::in_memory(const std::string& name) {
-  silence_error_stack();
-  Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory_access()), H5Fclose,
-              "create " + name);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw Hdf5Error(path + ": no such file, or not a plain file");
+  return {path, ReaderRequest::open, path};
 }
 
 Hdf5File Hdf5File::from_image(const std::string& name, std::string_view image) {
-  silence_error_stack();
-  check_hdf5_bytes(image);
-  const Handle access = memory_access();
-  check(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "take " + name);
-  Handle file(H5Fopen(unique_name(name).c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + name);
-  return Hdf5File(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+  return {name, ReaderRequest::open_image, std::string(image)};
 }
 
-std::string Hdf5File::image() {
-  const std::string action = "make an image of " + implementation_->path;
-  flush();
-  const ssize_t size = H5Fget_file_image(implementation_->file, nullptr, 0);
-  if (size < 0) throw Hdf5Error("HDF5 could not " + action);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(implementation_->file, bytes.data(), bytes.size()) != size)
-    throw Hdf5Error("HDF5 could not " + action);
-  return bytes;
+bool Hdf5File::has(const std::string& path) const {
+  return reader_.ask<bool>(ReaderRequest::has, path);
 }
 
-void Hdf5File::flush() {
-  check(H5Fflush(implementation_->file, H5F_SCOPE_GLOBAL), "flush " + implementation_->path);
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  return reader_.ask<std::vector<std::string>>(ReaderRequest::members, group);
+}
+
+Shape Hdf5File::shape(const std::string& dataset) const {
+  const std::optional<StoredArray> none = rows(dataset, 0, 0);
+  if (!none) fail(dataset + ": expected a dataset, found a group or a type");
+  return none->shape;
+}
+
+std::optional<StoredArray> Hdf5File::rows(const std::string& object, std::uint64_t first,
+                                          std::uint64_t count) const {
+  return reader_.ask<std::optional<StoredArray>>(ReaderRequest::read, object, first, count);
+}
+
+std::optional<StoredArray> Hdf5File::read(const std::string& object) const {
+  std::optional<StoredArray> all = rows(object, 0, max_elements);
+  if (!all) return all;
+  const std::uint64_t count = element_count(all->shape);
+  std::size_t before = 0;
+  while (size_of(*all) > before && size_of(*all) < count) {
+    before = size_of(*all);
+    std::optional<StoredArray> part = rows(object, before / (count / all->shape[0]), max_elements);
+    const auto append = [](auto& to, auto& from) {
+      if constexpr (std::is_same_v<decltype(to), decltype(from)>)
+        to.insert(to.end(), std::move_iterator(from.begin()), std::move_iterator(from.end()));
+    };
+    if (part) std::visit(append, all->elements, part->elements);
+  }
+  if (size_of(*all) != count) fail("dataset " + object + " is damaged");
+  return all;
+}
+
+template <class Element>
+std::vector<Element> Hdf5File::elements(std::optional<StoredArray> array, const std::string& name) const {
+  if (!array) fail(name + ": expected a dataset, found a group or a type");
+  if (auto* same = std::get_if<std::vector<Element>>(&array->elements)) return std::move(*same);
+  std::vector<Element> result;
+  const auto add_all = [&](const auto& list) {
+    for (const auto& value : list) {
+      const std::optional<Element> element = converted<Element>(value);
+      if (!element) fail(name + ": expected " + name_of_type<Element>);
+      result.push_back(*element);
+    }
+  };
+  std::visit(add_all, array->elements);
+  return result;
+}
+
+std::vector<double> Hdf5File::read_real(const std::string& dataset) const {
+  return elements<double>(read(dataset), "dataset " + dataset);
+}
+
+std::vector<Complex> Hdf5File::read_complex(const std::string& dataset) const {
+  return elements<Complex>(read(dataset), "dataset " + dataset);
+}
+
+std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
+  return elements<std::int64_t>(read(dataset), "dataset " + dataset);
+}
+
+std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {
+  return elements<std::string>(read(dataset), "dataset " + dataset);
+}
+
+std::vector<Complex> Hdf5File::read_complex_row(const std::string& dataset, std::uint64_t row) const {
+  return elements<Complex>(rows(dataset, row, 1), "dataset " + dataset);
+}
+
+std::map<std::string, StoredArray> Hdf5File::attributes(const std::string& object) const {
+  return reader_.ask<std::map<std::string, StoredArray>>(ReaderRequest::attributes, object);
+}
+
+template <class Element>
+Element Hdf5File::attribute(const std::map<std::string, StoredArray>& attributes,
+                            const std::string& name) const {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) fail("has no attribute " + name);
+  const std::vector<Element> values = elements<Element>(found->second, "attribute " + name);
+  if (values.size() != 1) fail("attribute " + name + ": expected a single value");
+  return values[0];
+}
+
+std::string Hdf5File::text_attribute(const std::string& name) const {
+  return attribute<std::string>(attributes_, name);
+}
+
+double Hdf5File::real_attribute(const std::string& name) const {
+  return attribute<double>(attributes_, name);
+}
+
+std::int64_t Hdf5File::integer_attribute(const std::string& name) const {
+  return attribute<std::int64_t>(attributes_, name);
+}
+
+std::string Hdf5File::text_attribute(const std::string& dataset, const std::string& name) const {
+  const auto all = attributes(dataset);
+  return all.contains(name) ? attribute<std::string>(all, name) : "";
+}
+
+std::map<std::string, std::string> Hdf5File::attribute_texts() const {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, value] : attributes_) {
+    if (size_of(value) != 1) continue;
+    if (const auto* text = std::get_if<std::vector<std::string>>(&value.elements))
+      texts[name] = text->front();
+    if (const auto* real = std::get_if<std::vector<double>>(&value.elements))
+      texts[name] = exact_text(real->front());
+    if (const auto* integer = std::get_if<std::vector<std::int64_t>>(&value.elements))
+      texts[name] = std::to_string(integer->front());
+  }
+  return texts;
 }
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// Shared by reading and writing of HDF5 files: identifiers that are closed automatically, and element types.
+// Shared by what reads and what writes HDF5: identifiers that are closed automatically, and element types.
 #pragma once
 
 #include <hdf5.h>
@@ -6,16 +6,19 @@
 #include <string>
 #include <utility>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_types.hpp"
 
 namespace eigentrail {
+
+/// Throws Hdf5Error for the call that failed last, with the innermost reason that HDF5 gives.
+[[noreturn]] void fail_hdf5(const std::string& action);
 
 /// Owns an HDF5 identifier and closes it with the given function.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
   Handle(hid_t id, Close close, const std::string& action) : id_(id), close_(close) {
-    if (id < 0) throw Hdf5Error("HDF5 could not " + action);
+    if (id < 0) fail_hdf5(action);
   }
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle(const Handle&) = delete;
@@ -33,33 +36,10 @@ class Handle {
 
 /// Throws Hdf5Error if a call returned a negative (error) code.
 inline void check(herr_t code, const std::string& action) {
-  if (code < 0) throw Hdf5Error("HDF5 could not " + action);
+  if (code < 0) fail_hdf5(action);
 }
 
-Handle text_type();
-Handle complex_type();
 /// The HDF5 type of an element in memory.
 Handle memory_type(ElementType type);
-
-struct Hdf5File::Implementation {
-  std::string path;
-  Handle file;
-
-  Handle dataset(const std::string& name) const {
-    return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path};
-  }
-
-  /// Writes `count` elements, a whole number of rows, from `first_row` on; extends the dataset if necessary.
-  void write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count,
-             const void* data);
-
-  Shape shape(const std::string& name) const;
-
-  /// Reads all elements, or those of one row.
-  template <class Element>
-  std::vector<Element> read(const std::string& name, ElementType type) const;
-  template <class Element>
-  std::vector<Element> read_row(const std::string& name, std::uint64_t row, ElementType type) const;
-};
 
 }  // namespace eigentrail

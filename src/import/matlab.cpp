@@ -1,254 +1,32 @@
-// MATLAB's files of variables (.mat, versions 4, 5, 7 and 7.3), read with libmatio.
-#include <matio.h>
-
-#include <cstdint>
+// Matrices from MATLAB's files of variables.
 #include <filesystem>
-#include <functional>
-#include <memory>
-#include <numeric>
 
+#include "core/reader_process.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/text.hpp"
-#include "eigentrail/scene/limits.hpp"
 #include "import/formats.hpp"
-#include "import/mat_elements.hpp"
 #include "import/named_arrays.hpp"
 
 namespace eigentrail {
 namespace {
 
-using MatFile = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
-using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
-
-/// The last message of the library; without a function of ours it would print.
-std::string& last_message() {
-  static std::string message;
-  return message;
+std::vector<NamedArray> read_variables(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path + ": no such file, or not a plain file");
+  const ReaderProcess reader(path);
+  auto arrays = reader.ask<std::vector<NamedArray>>(ReaderRequest::matlab, path);
+  for (const NamedArray& array : arrays) {
+    if (array.strides.size() != array.shape.size() ||
+        array.size() != (array.is_text ? array.texts.size() : array.numbers.size()))
+      reader.fail("variable " + array.name + " is damaged");
+  }
+  return arrays;
 }
-
-void keep_message(int /*level*/, char* message) {
-  last_message() = message == nullptr ? "" : message;
-}
-
-class MatReader {
- public:
-  explicit MatReader(const std::string& path) : path_(path), file_(nullptr, &Mat_Close) {
-    Mat_LogInitFunc("eigentrail", keep_message);
-    last_message().clear();
-    if (!std::filesystem::is_regular_file(path)) fail("no such file");
-    check_mat_elements(path);
-    file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-    if (!file_) fail("is no file of MATLAB (.mat)" + reason());
-  }
-
-  std::vector<NamedArray> read() {
-    while (const Variable info{Mat_VarReadNextInfo(file_.get()), &Mat_VarFree}) {
-      check_size(*info);
-      if (info->class_type == MAT_C_FUNCTION || info->class_type == MAT_C_OPAQUE) continue;
-      const Variable variable(Mat_VarRead(file_.get(), info->name), &Mat_VarFree);
-      if (!variable) fail("variable " + name_of(*info) + " cannot be read" + reason());
-      add(*variable, name_of(*info));
-    }
-    if (!last_message().empty()) fail("is damaged" + reason());
-    return std::move(arrays_);
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(path_ + ": " + message); }
-
-  static std::string reason() { return last_message().empty() ? "" : ": " + printable(last_message()); }
-
-  /// MATLAB's names are ASCII; anything else comes from damaged files.
-  static std::string name_of(const matvar_t& variable) {
-    std::string name = variable.name == nullptr ? "" : variable.name;
-    for (char& c : name) c = static_cast<unsigned char>(c) < 128 ? c : '?';
-    return name;
-  }
-
-  static std::vector<std::size_t> shape_of(const matvar_t& variable) {
-    return {variable.dims, variable.dims + variable.rank};
-  }
-
-  void check_size(const matvar_t& variable) {
-    std::size_t count = 1;
-    for (const std::size_t extent : shape_of(variable)) {
-      if (extent != 0 && count > (limits::matrix_numbers - numbers_) / extent)
-        fail("more than " + std::to_string(limits::matrix_numbers) + " numbers in all variables together");
-      count *= extent;
-    }
-    if (variable.class_type != MAT_C_SPARSE) numbers_ += count;
-  }
-
-  void add(matvar_t& variable, const std::string& name) {
-    switch (variable.class_type) {
-      case MAT_C_STRUCT:
-        return add_fields(variable);
-      case MAT_C_CELL:
-        return add_cell(variable, name);
-      case MAT_C_CHAR:
-        return add_text(variable, name);
-      case MAT_C_SPARSE:
-        return add_sparse(variable, name);
-      default:
-        add_numbers(variable, name);
-    }
-  }
-
-  /// The fields of a structure as variables.
-  void add_fields(matvar_t& variable) {
-    if (std::accumulate(variable.dims, variable.dims + variable.rank, std::size_t{1}, std::multiplies<>()) !=
-        1)
-      return;
-    const unsigned count = variable.data == nullptr ? 0 : Mat_VarGetNumberOfFields(&variable);
-    check_holds(variable, name_of(variable), count, sizeof(matvar_t*));
-    char* const* names = Mat_VarGetStructFieldnames(&variable);
-    for (unsigned i = 0; i < count && names != nullptr; ++i) {
-      matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
-      if (field == nullptr || field->data == nullptr || names[i] == nullptr) continue;
-      check_size(*field);
-      if (field->class_type != MAT_C_STRUCT) add(*field, names[i]);
-    }
-  }
-
-  static NamedArray empty_array(const matvar_t& variable, const std::string& name) {
-    NamedArray array{name, shape_of(variable), {}, {}, {}, false};
-    array.set_order(false);
-    return array;
-  }
-
-  void add_cell(const matvar_t& variable, const std::string& name) {
-    NamedArray array = empty_array(variable, name);
-    array.is_text = true;
-    auto* const* cells = static_cast<matvar_t* const*>(variable.data);
-    check_holds(variable, name, array.size(), sizeof(matvar_t*));
-    for (std::size_t i = 0; i < array.size(); ++i) {
-      if (cells == nullptr || cells[i] == nullptr || cells[i]->class_type != MAT_C_CHAR)
-        return;  // other contents
-      const std::vector<std::string> lines = text_lines(*cells[i]);
-      array.texts.push_back(lines.empty() ? "" : lines.front());
-    }
-    arrays_.push_back(std::move(array));
-  }
-
-  void add_text(const matvar_t& variable, const std::string& name) {
-    NamedArray array{name, {}, {}, {}, text_lines(variable), true};
-    array.shape = {array.texts.size()};
-    array.set_order(false);
-    arrays_.push_back(std::move(array));
-  }
-
-  /// The rows of a matrix of characters, without the blanks at their ends.
-  std::vector<std::string> text_lines(const matvar_t& variable) const {
-    if (variable.rank != 2 || variable.data == nullptr) return {};
-    const std::size_t rows = variable.dims[0], columns = variable.dims[1];
-    check_holds(variable, name_of(variable), rows * columns, Mat_SizeOf(variable.data_type));
-    std::vector<std::string> lines(rows);
-    for (std::size_t i = 0; i < rows * columns; ++i) lines[i % rows] += character(variable, i);
-    for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
-    return lines;
-  }
-
-  static char character(const matvar_t& variable, std::size_t i) {
-    const auto printed = [](unsigned code) { return code < 128 ? static_cast<char>(code) : '?'; };
-    switch (variable.data_type) {
-      case MAT_T_UINT16:
-      case MAT_T_UTF16:
-        return printed(static_cast<const std::uint16_t*>(variable.data)[i]);
-      case MAT_T_UTF32:
-        return printed(static_cast<const std::uint32_t*>(variable.data)[i]);
-      default:
-        return static_cast<const char*>(variable.data)[i];
-    }
-  }
-
-  /// The parts of complex numbers are stored apart; imaginary parts must be zero.
-  const void* real_part(const matvar_t& variable, const std::string& name, const void* data,
-                        std::size_t count) const {
-    if (variable.isComplex == 0) return data;
-    const auto* parts = static_cast<const mat_complex_split_t*>(data);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (number(variable.data_type, parts->Im, i) != 0.0)
-        fail("variable " + name + " is complex; expected real numbers");
-    }
-    return parts->Re;
-  }
-
-  static double number(matio_types type, const void* data, std::size_t i) {
-    const auto as = [&](auto zero) {
-      return static_cast<double>(static_cast<const decltype(zero)*>(data)[i]);
-    };
-    switch (type) {
-      case MAT_T_SINGLE:
-        return as(float{});
-      case MAT_T_INT8:
-        return as(std::int8_t{});
-      case MAT_T_UINT8:
-        return as(std::uint8_t{});
-      case MAT_T_INT16:
-        return as(std::int16_t{});
-      case MAT_T_UINT16:
-        return as(std::uint16_t{});
-      case MAT_T_INT32:
-        return as(std::int32_t{});
-      case MAT_T_UINT32:
-        return as(std::uint32_t{});
-      case MAT_T_INT64:
-        return as(std::int64_t{});
-      case MAT_T_UINT64:
-        return as(std::uint64_t{});
-      default:
-        return as(double{});
-    }
-  }
-
-  /// In damaged files, the type of the elements does not fit the memory that the library has filled.
-  void check_holds(const matvar_t& variable, const std::string& name, std::size_t count,
-                   std::size_t element) const {
-    if (element == 0 || count > variable.nbytes / element) fail("variable " + name + " is damaged");
-  }
-
-  void add_numbers(const matvar_t& variable, const std::string& name) {
-    const bool known = variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
-    NamedArray array = empty_array(variable, name);
-    if (!known || (variable.data == nullptr && array.size() > 0)) return;
-    check_holds(variable, name, array.size(), Mat_SizeOf(variable.data_type));
-    const void* data = real_part(variable, name, variable.data, array.size());
-    for (std::size_t i = 0; i < array.size(); ++i)
-      array.numbers.push_back(number(variable.data_type, data, i));
-    arrays_.push_back(std::move(array));
-  }
-
-  void add_sparse(const matvar_t& variable, const std::string& name) {
-    const auto* sparse = static_cast<const mat_sparse_t*>(variable.data);
-    if (variable.rank != 2) return;
-    const std::size_t rows = variable.dims[0], columns = variable.dims[1];
-    if (rows > limits::matrix_rows || columns > limits::matrix_rows)
-      fail("variable " + name + " has more than " + std::to_string(limits::matrix_rows) + " rows or columns");
-    NamedArray array = empty_array(variable, name);
-    array.numbers.assign(rows * columns, 0.0);
-    if (sparse == nullptr || sparse->njc != columns + 1) fail("variable " + name + " is damaged");
-    const void* data = real_part(variable, name, sparse->data, sparse->ndata);
-    for (std::size_t c = 0; c < columns; ++c) {
-      for (std::size_t k = sparse->jc[c]; k < sparse->jc[c + 1]; ++k) {
-        if (k >= sparse->nir || k >= sparse->ndata || sparse->ir[k] >= rows)
-          fail("variable " + name + " is damaged");
-        array.numbers[c * rows + sparse->ir[k]] = number(variable.data_type, data, k);
-      }
-    }
-    numbers_ += array.numbers.size();
-    arrays_.push_back(std::move(array));
-  }
-
-  const std::string& path_;
-  MatFile file_;
-  std::size_t numbers_ = 0;
-  std::vector<NamedArray> arrays_;
-};
 
 Imported read_matlab(const ImportRequest& request) {
   if (request.files.size() != 1) throw InputError("matlab: expected one .mat file with all samples");
   const std::string& path = request.files.front();
-  return from_arrays(MatReader(path).read(), {path, false}, request.options);
+  return from_arrays(read_variables(path), {path, false}, request.options);
 }
 
 }  // namespace

@@ -369,20 +369,6 @@ class ArrayReader {
 
 }  // namespace
 
-std::size_t NamedArray::size() const {
-  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
-}
-
-void NamedArray::set_order(bool last_fastest) {
-  strides.assign(shape.size(), 1);
-  std::size_t stride = 1;
-  for (std::size_t k = 0; k < shape.size(); ++k) {
-    const std::size_t i = last_fastest ? shape.size() - 1 - k : k;
-    strides[i] = stride;
-    stride *= shape[i];
-  }
-}
-
 std::map<std::string, std::string> array_options() {
   return {{"parameter", "array with the values of the parameter; default: the only one that fits"},
           {"unit", "unit of the parameter, such as \"m/s\""},

@@ -1,27 +1,14 @@
 // Arrays with names, as NumPy and MATLAB store them, and the samples of matrices that they are.
 #pragma once
 
-#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "eigentrail/import/importer.hpp"
+#include "import/named_array.hpp"
 
 namespace eigentrail {
-
-/// Numbers or texts. Entry (i, j, ...) stands at i strides[0] + j strides[1] + ...
-struct NamedArray {
-  std::string name;
-  std::vector<std::size_t> shape;
-  std::vector<std::size_t> strides;
-  std::vector<double> numbers;     ///< empty if the array has texts
-  std::vector<std::string> texts;  ///< empty if the array has numbers
-  bool is_text = false;
-
-  std::size_t size() const;
-  /// Strides of arrays whose last index varies fastest (C), or whose first does (Fortran).
-  void set_order(bool last_fastest);
-};
 
 /// What a user may say about the arrays of a file.
 struct ArrayOptions {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
@@ -23,14 +23,14 @@ const char* frame_name(StateFrame frame) {
   return frame == StateFrame::fixed ? "fixed" : "rotating";
 }
 
-void write_list(Hdf5File& file, const std::string& name, ElementType type, const auto& list,
+void write_list(Hdf5Writer& file, const std::string& name, ElementType type, const auto& list,
                 bool even_if_empty = false) {
   if (list.empty() && !even_if_empty) return;
   file.create_dataset({name, type, {list.size()}, false, {}});
   if (!list.empty()) file.write_rows(name, 0, list);
 }
 
-void write_matrices(Hdf5File& file, const std::string& name, const std::vector<Matrix>& samples) {
+void write_matrices(Hdf5Writer& file, const std::string& name, const std::vector<Matrix>& samples) {
   if (samples.empty()) return;
   std::vector<double> rows;
   for (const Matrix& sample : samples) {
@@ -46,7 +46,7 @@ void write_matrices(Hdf5File& file, const std::string& name, const std::vector<M
 
 void write_samples(const std::string& path, const SampledData& data) {
   check(data);
-  Hdf5File file = Hdf5File::in_memory(path);
+  Hdf5Writer file = Hdf5Writer::in_memory(path);
   DatasetSpec parameter{"parameter", ElementType::real, {data.count()}, false, {}};
   parameter.attributes["units"] = data.parameter_unit.empty() ? "1" : data.parameter_unit;
   if (!data.parameter_name.empty()) parameter.attributes["name"] = data.parameter_name;
@@ -122,7 +122,7 @@ void check(const PolynomialData& family) {
 }
 
 /// Compressed rows, as scipy.sparse.csr_matrix has them.
-void write_sparse(Hdf5File& file, const std::string& name, const SparseMatrix& matrix) {
+void write_sparse(Hdf5Writer& file, const std::string& name, const SparseMatrix& matrix) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = matrix;
   const auto entries = static_cast<std::size_t>(rows.nonZeros());
   write_list(file, name + "/data", ElementType::real,
@@ -134,7 +134,7 @@ void write_sparse(Hdf5File& file, const std::string& name, const SparseMatrix& m
 }
 
 void write_family(const std::string& path, const PolynomialData& family) {
-  Hdf5File file = Hdf5File::in_memory(path);
+  Hdf5Writer file = Hdf5Writer::in_memory(path);
   for (const auto& [name, coefficients] :
        {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"E", &family.E}, {"A", &family.A}}) {
     for (std::size_t power = 0; power < coefficients->size(); ++power) {

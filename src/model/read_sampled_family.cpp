@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
@@ -70,12 +71,10 @@ SampledData read_data(TableReader& table, const Scene& scene) {
   const std::string name = table.text("file");
   try {
     return read_samples(open_beside_scene(scene, table));
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    const std::string message = error.what();
-    const bool names_file = message.find(name) != std::string::npos;
-    table.fail("file", names_file ? message : name + ": " + message);
+  } catch (const Hdf5Error& error) {
+    table.fail("file", error.what());
+  } catch (const std::invalid_argument& error) {
+    table.fail("file", name + ": " + error.what());
   }
 }
 

@@ -45,37 +45,20 @@ Json data_of_kind(const Hdf5File& file, const std::string& path, const ReportBud
 }  // namespace
 
 Json attributes_data(const Hdf5File& file) {
-  Json attributes = Json::object();
-  for (const std::string& name : file.attribute_names()) {
-    if (name == "scene" || name == "title") continue;
-    try {
-      attributes[name] = file.text_attribute(name);
-    } catch (const Hdf5Error&) {
-      try {
-        attributes[name] = exact_text(file.real_attribute(name));
-      } catch (const Hdf5Error&) {
-        continue;  // of another type: not written by eigentrail
-      }
-    }
-  }
+  std::map<std::string, std::string> attributes = file.attribute_texts();
+  attributes.erase("scene");
+  attributes.erase("title");
   return attributes;
 }
 
 Json file_data(const std::string& path, const ReportBudget& budget) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
-  try {
-    const Hdf5File file = Hdf5File::open(path);
-    Json data = data_of_kind(file, path, budget);
-    data["name"] = std::filesystem::path(path).filename().string();
-    data["title"] = text_of(file, "title");
-    data["scene"] = text_of(file, "scene");
-    data["attributes"] = attributes_data(file);
-    return data;
-  } catch (const Hdf5Error& failure) {
-    throw InputError(path + ": cannot be read: " + failure.what());
-  }
+  const Hdf5File file = Hdf5File::open(path);
+  Json data = data_of_kind(file, path, budget);
+  data["name"] = std::filesystem::path(path).filename().string();
+  data["title"] = text_of(file, "title");
+  data["scene"] = text_of(file, "scene");
+  data["attributes"] = attributes_data(file);
+  return data;
 }
 
 }  // namespace eigentrail

@@ -10,10 +10,6 @@ namespace {
 
 constexpr int samples_per_step = 24;
 
-void require_fit(bool fits, const std::string& dataset) {
-  if (!fits) throw Hdf5Error(dataset + " does not fit the other datasets");
-}
-
 Json axis(const Hdf5File& file, const std::string& name) {
   return {{"name", name}, {"unit", file.text_attribute(name, "units")}};
 }
@@ -30,7 +26,7 @@ class BoundaryCurves {
         others_(file.read_integers("other_unstable")) {
     const bool fits = shape_.size() == 4 && shape_[0] == length_.size() && shape_[1] == 4 && shape_[2] == 2 &&
                       shape_[3] >= 2 && step_curve_.size() == shape_[0] && step_point_.size() == shape_[0];
-    require_fit(fits, "dense_output");
+    file.require_fit(fits, "dense_output");
     for (std::size_t i = 0; i < length_.size(); ++i) steps_[step_curve_[i]].push_back(i);
   }
 
@@ -83,7 +79,7 @@ class BoundaryCurves {
 Json corners(const Hdf5File& file) {
   const auto kinds = file.read_texts("corner_kind");
   const auto places = file.read_real("corner_parameter");
-  require_fit(places.size() == 2 * kinds.size(), "corner_parameter");
+  file.require_fit(places.size() == 2 * kinds.size(), "corner_parameter");
   Json list = Json::array();
   for (std::size_t i = 0; i < kinds.size(); ++i)
     list.push_back({{"kind", kinds[i]}, {"first", places[2 * i]}, {"second", places[2 * i + 1]}});
@@ -103,7 +99,7 @@ Json boundary_data(const Hdf5File& file) {
   const auto extent = file.read_real("curve_extent");
   const std::size_t n = kinds.size();
   if (modes.size() != n || begins.size() != n || ends.size() != n || extent.size() != 4 * n)
-    throw Hdf5Error("the datasets of curves do not fit each other");
+    file.fail("the datasets of curves do not fit each other");
   data["curves"] = Json::array();
   if (n > 0) {
     const BoundaryCurves curves(file);
@@ -131,9 +127,9 @@ Json map_data(const Hdf5File& file) {
   data["second"]["values"] = file.read_real(second);
   const Shape window{data["second"]["values"].size(), data["first"]["values"].size()};
   for (const char* name : {"unstable", "margin", "damping_ratio"})
-    require_fit(file.shape(name) == window, name);
+    file.require_fit(file.shape(name) == window, name);
   for (const char* name : {"axis_line", "axis_kind", "axis_frequency"})
-    require_fit(file.shape(name) == file.shape("axis_parameter"), name);
+    file.require_fit(file.shape(name) == file.shape("axis_parameter"), name);
   const auto unstable = file.read_integers("unstable");
   data["unstable"] = base64(std::vector<std::int32_t>(unstable.begin(), unstable.end()));
   const auto single = [&file](const char* name) {
@@ -158,7 +154,7 @@ Json accuracy_data(const Hdf5File& file) {
   for (const char* name : {"order", "points", "factorizations", "spectra"})
     data[name] = file.read_integers(name);
   for (const auto& [name, values] : data.items())
-    require_fit(name == "kind" || file.shape(name) == runs, name);
+    file.require_fit(name == "kind" || file.shape(name) == runs, name);
   return data;
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/provenance.hpp"
@@ -19,7 +19,7 @@ std::vector<std::int64_t> numbers(std::size_t count) {
   return result;
 }
 
-void write_attributes(Hdf5File& file, const TraceSetup& setup, const StudyOptions& options,
+void write_attributes(Hdf5Writer& file, const TraceSetup& setup, const StudyOptions& options,
                       const ReferenceSet& reference) {
   write_provenance(file, accuracy_format, accuracy_schema_version, setup.scene, setup.options);
   file.set_attribute("reference", reference.s_ref);
@@ -31,7 +31,7 @@ void write_attributes(Hdf5File& file, const TraceSetup& setup, const StudyOption
 /// Writes one number or text of every run along the dimension `run`.
 class RunColumns {
  public:
-  RunColumns(Hdf5File& file, const std::vector<MeasuredRun>& runs) : file_(file), runs_(runs) {
+  RunColumns(Hdf5Writer& file, const std::vector<MeasuredRun>& runs) : file_(file), runs_(runs) {
     write_dimension(file, {"run", "1", "a method at one setting"}, numbers(runs.size()));
   }
 
@@ -43,11 +43,11 @@ class RunColumns {
   }
 
  private:
-  Hdf5File& file_;
+  Hdf5Writer& file_;
   const std::vector<MeasuredRun>& runs_;
 };
 
-void write_runs(Hdf5File& file, const std::vector<MeasuredRun>& runs, const std::string& parameter_unit) {
+void write_runs(Hdf5Writer& file, const std::vector<MeasuredRun>& runs, const std::string& parameter_unit) {
   using Run = MeasuredRun;
   RunColumns columns(file, runs);
   columns.write<std::string>({"method", "1", "what was run"}, [](const Run& run) { return run_name(run); });
@@ -76,7 +76,7 @@ void write_runs(Hdf5File& file, const std::vector<MeasuredRun>& runs, const std:
 }
 
 /// One row per passage of the path through a sample's parameter value.
-void write_references(Hdf5File& file, const ReferenceSet& reference, const std::string& parameter_unit) {
+void write_references(Hdf5Writer& file, const ReferenceSet& reference, const std::string& parameter_unit) {
   std::vector<double> parameters;
   std::vector<const std::vector<Complex>*> rows;
   std::size_t modes = 0;
@@ -106,7 +106,7 @@ void write_references(Hdf5File& file, const ReferenceSet& reference, const std::
 
 std::string study_file(const TraceSetup& setup, const StudyOptions& options, const Study& study) {
   const std::string unit = label_unit(setup.scene.parameters.at(setup.options.parameter).unit);
-  Hdf5File file = Hdf5File::in_memory("work-precision study");
+  Hdf5Writer file = Hdf5Writer::in_memory("work-precision study");
   write_attributes(file, setup, options, study.reference);
   write_runs(file, study.runs, unit);
   write_references(file, study.reference, unit);

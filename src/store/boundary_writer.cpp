@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
@@ -57,7 +57,7 @@ std::vector<std::int64_t> count_to(std::size_t n) {
 class BoundaryFile {
  public:
   BoundaryFile(const BoundarySetup& setup, const BoundaryResult& result)
-      : file_(Hdf5File::in_memory("boundary file")),
+      : file_(Hdf5Writer::in_memory("boundary file")),
         setup_(setup),
         result_(result),
         first_(setup.scene.parameters.at(setup.options.trace.parameter)),
@@ -95,7 +95,7 @@ class BoundaryFile {
   void write_curves();
   void write_corners();
 
-  Hdf5File file_;
+  Hdf5Writer file_;
   const BoundarySetup& setup_;
   const BoundaryResult& result_;
   const Parameter& first_;

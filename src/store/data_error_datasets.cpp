@@ -9,7 +9,7 @@ constexpr const char* interpolation = "interpolation_error";
 constexpr const char* digits = "digits_error";
 constexpr const char* interval = "event_interval";
 
-void write_bounds(Hdf5File& file, const std::string& name, const std::string& long_name,
+void write_bounds(Hdf5Writer& file, const std::string& name, const std::string& long_name,
                   const Matrix& bounds) {
   const auto rows = static_cast<std::uint64_t>(bounds.rows());
   const auto columns = static_cast<std::uint64_t>(bounds.cols());
@@ -22,7 +22,7 @@ void write_bounds(Hdf5File& file, const std::string& name, const std::string& lo
 }
 
 Matrix read_bounds(const Hdf5File& file, const std::string& name, std::size_t rows, std::size_t columns) {
-  if (file.shape(name) != Shape{rows, columns}) throw Hdf5Error(name + " does not fit the other datasets");
+  file.require_fit(file.shape(name) == Shape{rows, columns}, name);
   if (rows * columns == 0) return Matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
   const std::vector<double> data = file.read_real(name);
   return Eigen::Map<const RowMajorReal>(data.data(), static_cast<Eigen::Index>(rows),
@@ -35,7 +35,7 @@ bool is_data_error_dataset(const std::string& name) {
   return name == interpolation || name == digits || name == interval;
 }
 
-void write_data_errors(Hdf5File& file, const std::string& parameter, const DataErrors& errors) {
+void write_data_errors(Hdf5Writer& file, const std::string& parameter, const DataErrors& errors) {
   write_bounds(file, interpolation, "bound of the error of the eigenvalue between the samples of the model",
                errors.interpolation);
   write_bounds(file, digits, "bound of the error of the eigenvalue from the digits of the samples",
@@ -45,7 +45,7 @@ void write_data_errors(Hdf5File& file, const std::string& parameter, const DataE
                        ElementType::real,
                        {events, 2},
                        false,
-                       {{"units", file.text_attribute(parameter, "units")},
+                       {{"units", file.units(parameter)},
                         {"long_name", "where the event lies as far as the errors of the data tell"}}});
   file.attach_scale(interval, "event", 0);
   file.attach_scale(interval, "end", 1);

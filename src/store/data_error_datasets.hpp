@@ -4,12 +4,13 @@
 #include <optional>
 
 #include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/continuation/data_errors.hpp"
 
 namespace eigentrail {
 
 /// Creates and writes the datasets. The other datasets of the file must be complete.
-void write_data_errors(Hdf5File& file, const std::string& parameter, const DataErrors& errors);
+void write_data_errors(Hdf5Writer& file, const std::string& parameter, const DataErrors& errors);
 
 /// Empty if the file has no such datasets. Throws Hdf5Error if they do not fit the numbers of steps, modes
 /// and events.

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 
 namespace eigentrail {
 
@@ -32,7 +32,7 @@ constexpr ElementType element_type() {
 
 /// Writes `data` (row-major) over dimensions that exist already; the shape follows from them.
 template <class Element>
-void write_dataset(Hdf5File& file, const DatasetLabel& label, const std::vector<std::string>& dimensions,
+void write_dataset(Hdf5Writer& file, const DatasetLabel& label, const std::vector<std::string>& dimensions,
                    const std::vector<Element>& data, std::map<std::string, std::string> attributes = {}) {
   Shape shape;
   for (const std::string& dimension : dimensions) shape.push_back(file.shape(dimension)[0]);
@@ -46,7 +46,7 @@ void write_dataset(Hdf5File& file, const DatasetLabel& label, const std::vector<
 
 /// Writes a one-dimensional dataset and makes it the scale of a dimension of the same name.
 template <class Element>
-void write_dimension(Hdf5File& file, const DatasetLabel& label, const std::vector<Element>& values) {
+void write_dimension(Hdf5Writer& file, const DatasetLabel& label, const std::vector<Element>& values) {
   file.create_dataset({label.name,
                        element_type<Element>(),
                        {values.size()},

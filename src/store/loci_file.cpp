@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 #include "core/hdf5_file.hpp"
@@ -19,24 +18,6 @@
 
 namespace eigentrail {
 namespace {
-
-/// Reads the root attributes as text. Attributes of another type, which other programs may have added, are
-/// left out.
-void read_attributes(const Hdf5File& file, LociFile& loci) {
-  for (const std::string& name : file.attribute_names()) {
-    try {
-      if (name.starts_with("count_") || name == "schema_version" || name == "series_order") {
-        loci.attributes[name] = std::to_string(file.integer_attribute(name));
-      } else if (name == "tolerance" || name == "reference" || name == "seconds") {
-        loci.attributes[name] = exact_text(file.real_attribute(name));
-      } else {
-        loci.attributes[name] = file.text_attribute(name);
-      }
-    } catch (const Hdf5Error&) {
-      loci.attributes.erase(name);
-    }
-  }
-}
 
 void check_format(const Hdf5File& file, const std::string& path) {
   const std::string format = file.has_attribute("format") ? file.text_attribute("format") : "";
@@ -314,55 +295,47 @@ double LociFile::certified_share(std::size_t mode) const {
 
 namespace {
 
-LociFile loci_in(const std::function<Hdf5File()>& open, const std::string& path) {
-  try {
-    const Hdf5File file = open();
-    check_format(file, path);
-    LociFile loci;
-    loci.path = path;
-    read_attributes(file, loci);
-    loci.parameter = file.text_attribute("parameter");
-    loci.parameter_unit = file.text_attribute(loci.parameter, "units");
-    loci.modes = file.read_texts("mode");
-    loci.coordinates = file.read_texts("coordinate");
-    if (file.has("constraint")) loci.constraints = file.read_texts("constraint");
-    loci.mode_names.resize(loci.modes.size());
-    if (file.has("mode_name")) {
-      loci.mode_names = file.read_texts("mode_name");
-      require(loci.mode_names.size() == loci.modes.size(), loci, "mode_name");
-    }
-    read_points(file, loci);
-    read_steps(file, loci);
-    check_points_and_steps(loci);
-    read_events(file, loci);
-    loci.ranges = read_stable_ranges(file, loci.modes.size());
-    loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
-    loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
-    loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
-    read_trimmed(file, loci);
-    loci.residual = file.read_real("residual");
-    loci.condition = file.read_real("condition");
-    const std::size_t expected = loci.n_nodes() * loci.modes.size();
-    if (loci.residual.size() != expected || loci.condition.size() != expected) {
-      throw InputError(path + ": residual and condition do not fit the other datasets");
-    }
-    return loci;
-  } catch (const Hdf5Error& failure) {
-    throw InputError(path + ": cannot be read as a loci file: " + failure.what());
+LociFile loci_in(const Hdf5File& file, const std::string& path) {
+  check_format(file, path);
+  LociFile loci;
+  loci.path = path;
+  loci.attributes = file.attribute_texts();
+  loci.parameter = file.text_attribute("parameter");
+  loci.parameter_unit = file.text_attribute(loci.parameter, "units");
+  loci.modes = file.read_texts("mode");
+  loci.coordinates = file.read_texts("coordinate");
+  if (file.has("constraint")) loci.constraints = file.read_texts("constraint");
+  loci.mode_names.resize(loci.modes.size());
+  if (file.has("mode_name")) {
+    loci.mode_names = file.read_texts("mode_name");
+    require(loci.mode_names.size() == loci.modes.size(), loci, "mode_name");
   }
+  read_points(file, loci);
+  read_steps(file, loci);
+  check_points_and_steps(loci);
+  read_events(file, loci);
+  loci.ranges = read_stable_ranges(file, loci.modes.size());
+  loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
+  loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
+  loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
+  read_trimmed(file, loci);
+  loci.residual = file.read_real("residual");
+  loci.condition = file.read_real("condition");
+  const std::size_t expected = loci.n_nodes() * loci.modes.size();
+  if (loci.residual.size() != expected || loci.condition.size() != expected) {
+    throw InputError(path + ": residual and condition do not fit the other datasets");
+  }
+  return loci;
 }
 
 }  // namespace
 
 LociFile read_loci(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
-  return loci_in([&] { return Hdf5File::open(path); }, path);
+  return loci_in(Hdf5File::open(path), path);
 }
 
 LociFile read_loci_image(const std::string& name, std::string_view image) {
-  return loci_in([&] { return Hdf5File::from_image(name, image); }, name);
+  return loci_in(Hdf5File::from_image(name, image), name);
 }
 
 void read_mode_shapes(const LociFile& loci,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_types.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {

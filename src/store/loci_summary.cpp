@@ -6,14 +6,14 @@
 
 namespace eigentrail {
 
-void clear_events(Hdf5File& file) {
+void clear_events(Hdf5Writer& file) {
   for (const char* name :
        {"event", "events", "event_parameter", "event_eigenvalue", "event_half_width", "event_puiseux",
         "event_node", "event_direction", "event_value", "event_shape", "event_sensitivity", "event_shift"})
     file.extend(name, 0, 0);
 }
 
-void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t first) {
+void write_events(Hdf5Writer& file, const std::vector<Event>& events, std::size_t first) {
   if (first >= events.size()) return;
   std::vector<std::string> lines;
   std::vector<double> parameters, half_widths;
@@ -58,7 +58,7 @@ void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t 
   file.write_rows("event_shift", first, shifts);
 }
 
-void write_summary(Hdf5File& file, const TraceResult& result) {
+void write_summary(Hdf5Writer& file, const TraceResult& result) {
   const auto count = [&file](const std::string& name, std::uint64_t value) {
     file.set_attribute("count_" + name, static_cast<std::int64_t>(value));
   };

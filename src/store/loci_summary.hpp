@@ -1,19 +1,19 @@
 // Writes the events and the summary of a trace to its loci file, at every save and at the end.
 #pragma once
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/continuation/trace.hpp"
 
 namespace eigentrail {
 
 /// Removes all events.
-void clear_events(Hdf5File& file);
+void clear_events(Hdf5Writer& file);
 
 /// Writes the events from number `first` on to the datasets along the dimension `event`; those before have
 /// been written already.
-void write_events(Hdf5File& file, const std::vector<Event>& events, std::size_t first);
+void write_events(Hdf5Writer& file, const std::vector<Event>& events, std::size_t first);
 
 /// Writes the root attributes on the outcome and the work of the trace.
-void write_summary(Hdf5File& file, const TraceResult& result);
+void write_summary(Hdf5Writer& file, const TraceResult& result);
 
 }  // namespace eigentrail

@@ -26,7 +26,7 @@ std::vector<std::string> numbered_modes(std::size_t first, std::size_t end) {
 
 /// Creates a dimension with its labels. `growing`: it may be extended later.
 template <class Label>
-void create_dimension(Hdf5File& file, const std::string& name, ElementType type,
+void create_dimension(Hdf5Writer& file, const std::string& name, ElementType type,
                       const std::vector<Label>& labels, const std::string& long_name, bool growing = false) {
   file.create_dataset({name, type, {labels.size()}, growing, {{"units", "1"}, {"long_name", long_name}}});
   if (!labels.empty()) file.write_rows(name, 0, labels);
@@ -45,7 +45,7 @@ std::map<std::string, std::vector<std::pair<std::string, unsigned>>> by_dimensio
 
 }  // namespace
 
-LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& options, int order,
+LociTables::LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options, int order,
                        std::size_t modes, const std::vector<std::string>& motions)
     : file_(std::move(file)),
       parameter_(options.parameter),
@@ -71,7 +71,7 @@ LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& op
   extensible_ = by_dimension(datasets);
 }
 
-LociTables::LociTables(Hdf5File file, const Model& model, const TraceOptions& options)
+LociTables::LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options)
     : file_(std::move(file)),
       parameter_(options.parameter),
       trimmed_(trimmed_names(model.description())),

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {
@@ -27,11 +27,11 @@ class LociTables {
  public:
   /// Creates all datasets in `file`, which must be empty: for `modes` modes and power series of this order.
   /// `motions`: labels of the motions of the model's masses.
-  LociTables(Hdf5File file, const Model& model, const TraceOptions& options, int order, std::size_t modes,
+  LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options, int order, std::size_t modes,
              const std::vector<std::string>& motions);
 
   /// Continues a file that has the datasets, behind the rows that are written.
-  LociTables(Hdf5File file, const Model& model, const TraceOptions& options);
+  LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options);
 
   std::size_t modes() const { return modes_; }
   std::size_t functions() const { return functions_; }  ///< rows of dense output per step
@@ -43,13 +43,13 @@ class LociTables {
 
   void append(const LociRows& rows);
 
-  Hdf5File& file() { return file_; }
+  Hdf5Writer& file() { return file_; }
 
  private:
   void create_dimensions(const ModelDescription& description, int order, std::size_t modes);
   void extend(const std::string& dimension, std::size_t size);
 
-  Hdf5File file_;
+  Hdf5Writer file_;
   std::string parameter_;
   std::vector<std::string> trimmed_;  ///< names of trimmed parameters
   bool has_constraints_ = false;

@@ -83,7 +83,7 @@ struct LociWriter::Implementation {
   void write_rows();
   void update(const TraceResult& result, const char* status);
   void save(const Checkpoint& checkpoint, const char* status);
-  void save(std::string_view state);
+  void save(std::string image, std::string_view state);
 };
 
 namespace {
@@ -91,7 +91,7 @@ namespace {
 LociTables new_tables(const std::string& path, const Scene& scene, const Model& model,
                       const TraceOptions& options, const TraceStart& start,
                       const std::vector<std::string>& motions) {
-  Hdf5File file = Hdf5File::in_memory(path);
+  Hdf5Writer file = Hdf5Writer::in_memory(path);
   write_provenance(file, loci_format, loci_schema_version, scene, options);
   file.set_attribute("reference", start.s_ref);
   file.set_attribute("series_order", static_cast<std::int64_t>(start.order));
@@ -136,7 +136,7 @@ LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOption
 LociWriter::LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
                        const SavedTrace& saved, double save_every) {
   auto lock = std::make_unique<OutputLock>(path);
-  LociTables tables(Hdf5File::from_image(path, saved.image), model, options);
+  LociTables tables(Hdf5Writer::from_image(path, saved.image), model, options);
   implementation_.reset(new Implementation{path,
                                            std::move(lock),
                                            std::move(tables),
@@ -172,8 +172,8 @@ void LociWriter::Implementation::append_modes(const TracePoint& point) {
   last_shapes.resize(tables.modes());
   rows.eigenvalue.resize(begin + tables.modes(), Complex(nan, nan));
   rows.eigenvalue_derivative.resize(begin + tables.modes(), Complex(nan, nan));
-  for (auto* column :
-       {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual, &rows.condition, &rows.rounding})
+  for (auto* column : {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual,
+                       &rows.condition, &rows.rounding})
     column->resize(begin + tables.modes(), nan);
   rows.mode_shape.resize((begin + tables.modes()) * coordinates, Complex(nan, nan));
   const bool spins = has_whirl(model.description());
@@ -290,7 +290,7 @@ void LociWriter::Implementation::write_rows() {
 /// Writes all that is new since the last save to the file in memory.
 void LociWriter::Implementation::update(const TraceResult& result, const char* status) {
   write_rows();
-  Hdf5File& file = tables.file();
+  Hdf5Writer& file = tables.file();
   write_events(file, result.events, events);
   events = result.events.size();
   motions.write(file, tables.modes());
@@ -298,12 +298,12 @@ void LociWriter::Implementation::update(const TraceResult& result, const char* s
   file.set_attribute("status", status);
 }
 
-void LociWriter::Implementation::save(std::string_view state) {
+void LociWriter::Implementation::save(std::string image, std::string_view state) {
   try {
     if (path.empty()) {
-      bytes = tables.file().image().append(state);
+      bytes = std::move(image.append(state));
     } else {
-      write_durably(path, {tables.file().image(), state});
+      write_durably(path, {image, state});
     }
   } catch (const std::exception& error) {
     throw WriteError(error.what());
@@ -315,7 +315,9 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
   update(checkpoint.so_far(), status);
   ArchiveWriter archive;
   archive(last_shapes, motions, events);
-  save(saved_state(checkpoint.save(), archive.bytes()));
+  std::string image = tables.file().image();
+  const std::string state = saved_state(image, checkpoint.save(), archive.bytes());
+  save(std::move(image), state);
   is_saved = true;
   last_saved = Clock::now();
   cost = seconds_since(begin);
@@ -355,7 +357,7 @@ void LociWriter::finish(const TraceResult& result, const std::vector<StableRange
   self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early");
   write_stable_ranges(self.tables.file(), self.parameter, ranges);
   if (errors != nullptr) write_data_errors(self.tables.file(), self.parameter, *errors);
-  self.save("");
+  self.save(self.tables.file().image(), "");
 }
 
 }  // namespace eigentrail

@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/provenance.hpp"
@@ -20,7 +20,7 @@ const std::array<std::string, 11> map_names = {"unstable",       "margin",    "d
 class MapFile {
  public:
   MapFile(const MapSetup& setup, const StabilityMap& map)
-      : file_(Hdf5File::in_memory("stability map")),
+      : file_(Hdf5Writer::in_memory("stability map")),
         setup_(setup),
         map_(map),
         first_(setup.trace.scene.parameters.at(setup.trace.options.parameter)),
@@ -42,7 +42,7 @@ class MapFile {
   void write_lines();
   void write_axis_points();
 
-  Hdf5File file_;
+  Hdf5Writer file_;
   const MapSetup& setup_;
   const StabilityMap& map_;
   const Parameter& first_;

@@ -179,7 +179,7 @@ std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
   return result;
 }
 
-void ModeMotions::write(Hdf5File& file, std::size_t n_modes) {
+void ModeMotions::write(Hdf5Writer& file, std::size_t n_modes) {
   const std::size_t motions = shares_.motions().size();
   if (motions == 0 && by_participation_.empty() && rotor_modes_.empty() && given_.empty()) return;
   std::vector<double> values;

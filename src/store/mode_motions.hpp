@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
 #include "eigentrail/modes/given_names.hpp"
@@ -51,7 +51,7 @@ class ModeMotions {
   /// Writes `kinetic_energy_share` and `mode_name`; nothing for a model without masses, or only names for one
   /// whose coordinates have names. Names are written
   /// only if they have changed, because HDF5 does not reuse the space of overwritten texts.
-  void write(Hdf5File& file, std::size_t n_modes);
+  void write(Hdf5Writer& file, std::size_t n_modes);
 
   /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>

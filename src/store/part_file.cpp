@@ -8,7 +8,7 @@
 
 #include "core/archive.hpp"
 #include "core/fingerprint.hpp"
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/store/output_file.hpp"
@@ -106,7 +106,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene)
 }
 
 void write_part(const PartFile& file) {
-  Hdf5File head = Hdf5File::in_memory(file.path);
+  Hdf5Writer head = Hdf5Writer::in_memory(file.path);
   head.set_attribute("format", part_format);
   head.set_attribute("schema_version", std::int64_t{part_schema_version});
   head.set_attribute("program_version", version());

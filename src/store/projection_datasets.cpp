@@ -8,7 +8,7 @@ bool is_projection_dataset(const std::string& name) {
   return name == "freedom" || name == "projection_basis" || name == "projection_place";
 }
 
-void write_projection(Hdf5File& file, const Projection& projection) {
+void write_projection(Hdf5Writer& file, const Projection& projection) {
   if (projection.is_of_family()) {
     write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
     using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/model/projection.hpp"
 
 namespace eigentrail {
@@ -13,6 +13,6 @@ bool is_projection_dataset(const std::string& name);
 
 /// Writes the dimension `freedom`, the basis over it, and what is known of the projection as attributes. The
 /// dimension `coordinate` must exist.
-void write_projection(Hdf5File& file, const Projection& projection);
+void write_projection(Hdf5Writer& file, const Projection& projection);
 
 }  // namespace eigentrail

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <regex>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 
 namespace eigentrail {
 namespace {
 
-void write_terms(Hdf5File& file, const std::string& letter, const std::vector<AffineTerm<Matrix>>& terms) {
+void write_terms(Hdf5Writer& file, const std::string& letter, const std::vector<AffineTerm<Matrix>>& terms) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   for (const AffineTerm<Matrix>& term : terms) {
     const RowMajor rows = term.matrix;
@@ -29,7 +29,7 @@ std::string write_projected(const std::string& path, const Scene& scene, const P
   for (const std::string& one : {path, beside}) {
     if (!force && fs::exists(one)) throw InputError(one + ": exists already; --force replaces it");
   }
-  Hdf5File file = Hdf5File::in_memory(path);
+  Hdf5Writer file = Hdf5Writer::in_memory(path);
   write_terms(file, "M", family.pencil().M);
   write_terms(file, "C", family.pencil().C);
   write_terms(file, "K", family.pencil().K);

@@ -4,7 +4,7 @@
 
 namespace eigentrail {
 
-void write_provenance(Hdf5File& file, const std::string& format, int schema_version, const Scene& scene,
+void write_provenance(Hdf5Writer& file, const std::string& format, int schema_version, const Scene& scene,
                       const TraceOptions& options) {
   file.set_attribute("format", format);
   file.set_attribute("schema_version", std::int64_t{schema_version});
@@ -20,7 +20,7 @@ void write_provenance(Hdf5File& file, const std::string& format, int schema_vers
   file.set_attribute("separation_margin", margin_text(options.events.operating));
 }
 
-void write_notes(Hdf5File& file, const std::vector<std::string>& notes) {
+void write_notes(Hdf5Writer& file, const std::vector<std::string>& notes) {
   std::string joined;
   for (const std::string& note : notes) joined += (joined.empty() ? "" : "; ") + note;
   file.set_attribute("notes", joined);

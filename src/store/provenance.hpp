@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {
 
 /// Writes format, schema version, program version, title, text and path of the scene, the traced parameter,
 /// the tolerance, and one attribute "option_..." per option of the trace.
-void write_provenance(Hdf5File& file, const std::string& format, int schema_version, const Scene& scene,
+void write_provenance(Hdf5Writer& file, const std::string& format, int schema_version, const Scene& scene,
                       const TraceOptions& options);
 
 /// Writes the attribute "notes": sentences for the user, joined by "; ".
-void write_notes(Hdf5File& file, const std::vector<std::string>& notes);
+void write_notes(Hdf5Writer& file, const std::vector<std::string>& notes);
 
 }  // namespace eigentrail

@@ -37,7 +37,7 @@ constexpr std::array<RangeDataset, 10> datasets{{
      "1: no mode of the whole model grows; 0: no followed mode grows, others are not known"},
 }};
 
-void create(Hdf5File& file, const std::string& unit) {
+void create(Hdf5Writer& file, const std::string& unit) {
   file.create_dataset({"range",
                        ElementType::integer,
                        {0},
@@ -73,9 +73,9 @@ bool is_range_dataset(const std::string& name) {
                      [&name](const RangeDataset& dataset) { return dataset.name == name; });
 }
 
-void write_stable_ranges(Hdf5File& file, const std::string& parameter,
+void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges) {
-  create(file, file.text_attribute(parameter, "units"));
+  create(file, file.units(parameter));
   if (ranges.empty()) return;
   std::vector<std::int64_t> numbers, modes, whole;
   std::vector<double> from, to, margins, least, largest, largest_at;
@@ -115,8 +115,7 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   for (const RangeDataset& dataset : datasets) {
     if (dataset.name == whole_model && !file.has(whole_model)) continue;
     const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
-    if (file.shape(dataset.name) != expected)
-      throw Hdf5Error(std::string(dataset.name) + " does not fit the other datasets");
+    file.require_fit(file.shape(dataset.name) == expected, dataset.name);
   }
   const auto from = file.read_real("stable_from");
   const auto to = file.read_real("stable_to");
@@ -126,21 +125,21 @@ std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file,
   const auto modes = file.read_integers("stable_mode");
   for (const std::int64_t mode : modes) {
     if (mode > static_cast<std::int64_t>(n_modes))
-      throw Hdf5Error("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
+      file.fail("stable_mode names mode " + std::to_string(mode) + " of " + std::to_string(n_modes));
   }
   const auto least = file.read_real("stable_least_margin");
   const auto largest = file.read_real("stable_largest_margin");
   const auto largest_at = file.read_real("stable_largest_at");
-  const auto whole = file.has(whole_model) ? file.read_integers(whole_model) : std::vector<std::int64_t>(count);
+  const auto whole =
+      file.has(whole_model) ? file.read_integers(whole_model) : std::vector<std::int64_t>(count);
   std::vector<StableRange> ranges;
   for (std::size_t i = 0; i < count; ++i) {
     const auto end = [&](double p, std::size_t at) {
       const int mode = modes[at] < 0 ? -1 : static_cast<int>(modes[at]) - 1;
       return RangeEnd{p, causes[at], margins[at], mode};
     };
-    ranges.push_back(
-        {kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i], largest_at[i],
-         whole[i] == 1});
+    ranges.push_back({kind_of(kinds[i]), end(from[i], 2 * i), end(to[i], 2 * i + 1), least[i], largest[i],
+                      largest_at[i], whole[i] == 1});
   }
   return ranges;
 }

@@ -4,12 +4,13 @@
 #include <optional>
 
 #include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
 
 namespace eigentrail {
 
 /// Creates and writes the datasets. The dimension `end` and the dataset of the traced parameter must exist.
-void write_stable_ranges(Hdf5File& file, const std::string& parameter,
+void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges);
 
 /// Reads the stable ranges; empty if the file has no such datasets. Throws Hdf5Error if these are

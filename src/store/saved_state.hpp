@@ -3,11 +3,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace eigentrail {
 
-/// The bytes to append to the HDF5 data: the states of the trace and of its writer, and a mark with size and
-/// checksum by which they are recognized.
-std::string saved_state(const std::string& trace, const std::string& writer);
+/// The bytes to append to the HDF5 data `image`: the states of the trace and of its writer, and a mark with
+/// their size and a checksum of image and states by which they are recognized.
+std::string saved_state(std::string_view image, const std::string& trace, const std::string& writer);
 
 }  // namespace eigentrail

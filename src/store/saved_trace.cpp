@@ -21,7 +21,7 @@ struct Mark {
   static constexpr std::string_view text = "eigentrail-state";
   std::array<char, text.size()> name = {};
   std::uint64_t size = 0;      ///< size of the state, which precedes the mark, in bytes
-  std::uint64_t checksum = 0;  ///< checksum of the state
+  std::uint64_t checksum = 0;  ///< of all bytes before the mark
 };
 
 void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& options) {
@@ -48,11 +48,9 @@ void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& op
 
 }  // namespace
 
-std::string saved_state(const std::string& trace, const std::string& writer) {
-  ArchiveWriter archive;
-  archive(trace, writer);
-  std::string bytes = archive.bytes();
-  Mark mark{{}, bytes.size(), fingerprint(bytes)};
+std::string saved_state(std::string_view image, const std::string& trace, const std::string& writer) {
+  std::string bytes = packed(trace, writer);
+  Mark mark{{}, bytes.size(), fingerprint(bytes, fingerprint(image))};
   std::copy(Mark::text.begin(), Mark::text.end(), mark.name.begin());
   bytes.append(reinterpret_cast<const char*>(&mark), sizeof mark);
   return bytes;
@@ -68,11 +66,9 @@ SavedTrace split(const std::string& path, std::string_view bytes) {
   if (!has_mark || std::string_view(mark.name.data(), mark.name.size()) != Mark::text)
     throw InputError(path + ": cannot be resumed: it holds no state of the trace; trace anew with --force");
   const std::string_view before = bytes.substr(0, bytes.size() - sizeof mark);
-  const bool fits = mark.size <= before.size();
-  const std::string_view state = before.substr(fits ? before.size() - mark.size : 0);
-  if (!fits || fingerprint(state) != mark.checksum)
-    throw InputError(path +
-                     ": cannot be resumed: the state of the trace is damaged; trace anew with --force");
+  if (mark.size > before.size() || fingerprint(before) != mark.checksum)
+    throw InputError(path + ": cannot be resumed: it is damaged; trace anew with --force");
+  const std::string_view state = before.substr(before.size() - mark.size);
   SavedTrace saved;
   ArchiveReader archive(state);
   archive(saved.trace, saved.writer);

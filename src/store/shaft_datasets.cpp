@@ -17,7 +17,7 @@ bool is_shaft_dataset(const std::string& name) {
   return std::find(shaft_names.begin(), shaft_names.end(), name) != shaft_names.end();
 }
 
-void write_shafts(Hdf5File& file, const ModelDescription& description) {
+void write_shafts(Hdf5Writer& file, const ModelDescription& description) {
   if (description.shafts.empty()) return;
   std::vector<std::string> names;
   std::vector<std::int64_t> numbers, coordinates;

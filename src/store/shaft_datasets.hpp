@@ -1,7 +1,7 @@
 // The nodes of shafts in a loci file: names, places, and their coordinates.
 #pragma once
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/model/model.hpp"
 
 namespace eigentrail {
@@ -10,6 +10,6 @@ namespace eigentrail {
 bool is_shaft_dataset(const std::string& name);
 
 /// Writes the nodes of a model with shafts; nothing for others.
-void write_shafts(Hdf5File& file, const ModelDescription& description);
+void write_shafts(Hdf5Writer& file, const ModelDescription& description);
 
 }  // namespace eigentrail

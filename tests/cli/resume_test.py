@@ -266,7 +266,10 @@ class Interrupted(ProgramTest):
         self.interrupted_file()
         path = self.folder / "out.h5"
         whole = path.read_bytes()
-        for what, damaged in (("is damaged", whole[:-300] + bytes(100) + whole[-200:]),
+        with h5py.File(path) as file:
+            value = whole.index(file["omega"][3].tobytes())
+        for what, damaged in (("is damaged", whole[:value] + bytes([whole[value] ^ 1]) + whole[value + 1:]),
+                              ("is damaged", whole[:-300] + bytes(100) + whole[-200:]),
                               ("holds no state", whole[:-1]), ("is damaged", whole[:-4] + b"\xff" * 4)):
             path.write_bytes(damaged)
             self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume"),

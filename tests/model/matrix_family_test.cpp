@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
@@ -161,7 +161,7 @@ class FamilyFile : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(folder + file); }
 
-  void add(Hdf5File& target, const std::string& dataset, double value) {
+  void add(Hdf5Writer& target, const std::string& dataset, double value) {
     DatasetSpec spec;
     spec.name = dataset;
     spec.shape = {1, 1};
@@ -182,7 +182,7 @@ class FamilyFile : public testing::Test {
 
 TEST_F(FamilyFile, PowersThatAreMissingAreZero) {
   {
-    Hdf5File target = Hdf5File::create(folder + file);
+    Hdf5Writer target = Hdf5Writer::create(folder + file);
     add(target, "M/0", 1.0);
     add(target, "K/0", 4.0);
     add(target, "K/2", 3.0);
@@ -198,7 +198,7 @@ TEST_F(FamilyFile, UnknownGroupsAndPowersAreRefused) {
   for (const char* wrong : {"D/0", "c/0", "K/one", "K/17"}) {
     std::filesystem::remove(folder + file);
     {
-      Hdf5File target = Hdf5File::create(folder + file);
+      Hdf5Writer target = Hdf5Writer::create(folder + file);
       add(target, "M/0", 1.0);
       add(target, "K/0", 4.0);
       add(target, "K/1", 4.0);
@@ -216,7 +216,7 @@ TEST_F(FamilyFile, LinksOutOfTheFolderAreNotFollowed) {
   std::filesystem::create_directories(elsewhere);
   std::filesystem::create_directories(beside);
   {
-    Hdf5File target = Hdf5File::create((elsewhere / file).string());
+    Hdf5Writer target = Hdf5Writer::create((elsewhere / file).string());
     add(target, "M/0", 1.0);
     add(target, "K/0", 4.0);
     add(target, "K/1", 3.0);
@@ -234,7 +234,7 @@ TEST_F(FamilyFile, LinksOutOfTheFolderAreNotFollowed) {
 
 TEST_F(FamilyFile, HoldsNoMoreNumbersThanItsLimit) {
   {
-    Hdf5File target = Hdf5File::create(folder + file);
+    Hdf5Writer target = Hdf5Writer::create(folder + file);
     DatasetSpec spec;
     spec.name = "M/0";
     spec.shape = {5001, 1};

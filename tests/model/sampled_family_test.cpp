@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "scene/input_error.hpp"
 #include "support/families.hpp"
@@ -212,7 +212,7 @@ TEST(SampledFamily, StatesAreMatchedByNameWhereTheirOrderChanges) {
   const SampledScene scene(data);
   // The same samples, every second one with its states in the other order.
   {
-    Hdf5File file = Hdf5File::in_memory(scene.file());
+    Hdf5Writer file = Hdf5Writer::in_memory(scene.file());
     file.create_dataset({"parameter", ElementType::real, {6}, false, {{"units", "1"}}});
     file.write_rows("parameter", 0, data.values);
     std::vector<double> numbers;

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "scene/input_error.hpp"
 #include "support/folder.hpp"
@@ -12,7 +12,7 @@
 namespace eigentrail::test {
 namespace {
 
-void write(Hdf5File& file, const std::string& name, const std::vector<double>& data,
+void write(Hdf5Writer& file, const std::string& name, const std::vector<double>& data,
            const std::vector<std::int64_t>& indices, const std::vector<std::int64_t>& starts) {
   file.create_dataset({name + "/data", ElementType::real, {data.size()}, false, {}});
   if (!data.empty()) file.write_rows(name + "/data", 0, data);
@@ -26,7 +26,7 @@ void write(Hdf5File& file, const std::string& name, const std::vector<double>& d
 class SparseFamilyFile : public ::testing::Test {
  protected:
   SparseFamilyFile() {
-    Hdf5File file = Hdf5File::in_memory("family.h5");
+    Hdf5Writer file = Hdf5Writer::in_memory("family.h5");
     write(file, "M/0", {1.0, 1.0}, {0, 1}, {0, 1, 2});
     write(file, "K/0", {2.0, -1.0, -1.0, 3.0}, {0, 1, 0, 1}, {0, 2, 4});
     write(file, "K/2", {0.5}, {0}, {0, 1, 1});
@@ -34,7 +34,7 @@ class SparseFamilyFile : public ::testing::Test {
     put(file);
   }
 
-  void put(Hdf5File& file) const {
+  void put(Hdf5Writer& file) const {
     const std::string image = file.image();
     std::ofstream(folder_.path() + "/family.h5", std::ios::binary) << image;
   }
@@ -104,7 +104,7 @@ TEST_F(SparseFamilyFile, FactorsNeedMatrices) {
 TEST_F(SparseFamilyFile, DamagedMatricesAreRefused) {
   const auto refused = [&](const std::vector<double>& data, const std::vector<std::int64_t>& indices,
                            const std::vector<std::int64_t>& starts, const std::string& expected) {
-    Hdf5File file = Hdf5File::in_memory("family.h5");
+    Hdf5Writer file = Hdf5Writer::in_memory("family.h5");
     write(file, "M/0", {1.0, 1.0}, {0, 1}, {0, 1, 2});
     write(file, "K/0", data, indices, starts);
     put(file);
@@ -123,7 +123,7 @@ TEST_F(SparseFamilyFile, DamagedMatricesAreRefused) {
 }
 
 TEST_F(SparseFamilyFile, AMatrixWithoutDataIsRefused) {
-  Hdf5File file = Hdf5File::in_memory("family.h5");
+  Hdf5Writer file = Hdf5Writer::in_memory("family.h5");
   file.create_dataset({"K/0/indptr", ElementType::integer, {3}, false, {}});
   put(file);
   EXPECT_TRUE(contains(input_error([&] { (void)setting("factors = {}"); }), "has no dataset data"));

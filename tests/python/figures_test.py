@@ -447,7 +447,7 @@ class PlotCommand(FigureTest):
             ((file, "--kind", "shape", "--at", "fast"), ["--at 'fast'", "a number"]),
             ((file, "--kind", "shape", "--at", "10 m"), ["--at '10 m'", "'rad/s'"]),
             ((self.folder / "nothing.h5",), ["nothing.h5: No such file"]),
-            ((self.folder / "notes.txt",), ["notes.txt: is no HDF5 file"]),
+            ((self.folder / "notes.txt",), ["notes.txt: cannot be read: HDF5 could not open it: it is no HDF5 file"]),
         ]:
             with self.subTest(arguments):
                 code, said = self.plot(*arguments, "-o", output)

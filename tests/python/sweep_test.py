@@ -29,12 +29,10 @@ class Sweeps(unittest.TestCase):
 
     def test_what_the_engine_reads_is_what_the_file_holds(self):
         files = [et.runs.trace_file(BLADE_SCENE, drag=drag).image for drag in (1, 2)]
-        first, other = (et.files.part_from_bytes(image) for image in files)
-        read = et.files.part_like(first, *et.engine.engine().read_datasets(files[1], et.files.FOR_SELECTION))
-        self.assertEqual(set(read.variables), set(other.variables))
-        for name in read.variables:
-            self.assertTrue(read[name].identical(other[name]), name)
-        self.assertEqual(read.attrs, {name: value for name, value in other.attrs.items() if isinstance(value, str)})
+        contents = [et.files.read(image, names=et.files.FOR_SELECTION) for image in files]
+        first, other = map(et.files.part, contents)
+        read = et.files.part_like(first, contents[1])
+        self.assertTrue(read.identical(other))
 
     def test_two_parameters_give_two_dimensions(self):
         swept = et.sweep(BLADE, {"drag": [1.0, 2.0], "mass": [40.0, 50.0, 60.0]}, points=11, jobs=2)

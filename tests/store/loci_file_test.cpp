@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "scene/input_error.hpp"
@@ -321,7 +322,7 @@ TEST_F(LociFileTest, ContentsThatContradictEachOtherAreRefused) {
       {"f['dense_block'][0] = -1", "mode_block does not fit"},
       {"f['event_direction'].resize((1,)); f['event_direction'][0] = 5", "events does not fit"},
       {"f['stable_mode'][0] = 9", "stable_mode names mode 9 of 1"},
-      {"del f['coordinate']; f['coordinate'] = 3.0", "cannot be read as a loci file"}};
+      {"del f['coordinate']; f['coordinate'] = 3.0", "cannot be read: "}};
   for (const auto& [change, expected] : table) {
     std::filesystem::remove(path);
     ASSERT_EQ(write(scene_setting("pendulum")).status, TraceStatus::completed);
@@ -339,10 +340,10 @@ TEST_F(LociFileTest, OnlyLociFilesMayBeReplaced) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   EXPECT_FALSE(may_be_replaced(path, loci_format)) << "damaged: somebody may want to save it";
   std::filesystem::remove(path);
-  Hdf5File::create(path).set_attribute("format", std::string("mine"));
+  Hdf5Writer::create(path).set_attribute("format", std::string("mine"));
   EXPECT_FALSE(may_be_replaced(path, loci_format));
   std::filesystem::remove(path);
-  Hdf5File::create(path).set_attribute("format", 3.0);
+  Hdf5Writer::create(path).set_attribute("format", 3.0);
   EXPECT_FALSE(may_be_replaced(path, loci_format));
   std::ofstream(path) << "a text";
   EXPECT_FALSE(may_be_replaced(path, loci_format));

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/hdf5_file.hpp"
+#include "core/hdf5_writer.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "store/output_lock.hpp"
 
@@ -44,7 +44,7 @@ class OutputFileTest : public testing::Test {
 
 TEST_F(OutputFileTest, MayBeReplacedByItsOwnFormatOnly) {
   EXPECT_FALSE(may_be_replaced(path, "mine"));
-  Hdf5File::create(path).set_attribute("format", std::string("mine"));
+  Hdf5Writer::create(path).set_attribute("format", std::string("mine"));
   EXPECT_TRUE(may_be_replaced(path, "mine"));
   EXPECT_FALSE(may_be_replaced(path, "yours"));
 }

@@ -1,4 +1,4 @@
-"""The compiled engine, which computes. Reading files works without it."""
+"""The compiled engine, which computes, and reads files."""
 
 from typing import TYPE_CHECKING, Any, Optional
 
@@ -6,7 +6,7 @@ _found: Any = None
 _why: Optional[ImportError] = None
 try:
     from . import _engine as _found  # type: ignore[attr-defined, no-redef]
-except ImportError as error:  # an installation that only reads files, or another version of Python
+except ImportError as error:  # not compiled, or for another version of Python
     _why = error
 
 
@@ -14,8 +14,8 @@ def engine() -> Any:
     """The compiled module; an ImportError that says how to get it where it is missing."""
     if _found is None:
         raise ImportError(
-            "this installation of eigentrail reads files, but has no compiled engine to compute with: install the Debian "
-            "package, run `pip install .` in the sources, or put build/release/python on the PYTHONPATH") from _why
+            "this installation of eigentrail has no compiled engine for this Python, which computes and reads files: install the "
+            "Debian package, run `pip install .` in the sources, or put build/release/python on the PYTHONPATH") from _why
     return _found
 
 

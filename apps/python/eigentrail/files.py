@@ -1,17 +1,18 @@
 """Opens loci, boundary, map and accuracy files as xarray Datasets."""
 
 import builtins
-import io
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
-from typing import Any, Optional, Union
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
 
-import h5py
 import numpy as np
 import xarray
 
+from .engine import engine
+
 SCHEMA = 1
+EXPECTED = "expected a file of eigentrail trace, boundary, map or accuracy"
 # Attributes by which HDF5 and xarray know dimensions and coordinates.
 NOT_ATTRIBUTES = ("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "coordinates")
 # Keys of a Dataset's encoding.
@@ -27,28 +28,39 @@ COORDINATES = {
     "eigentrail-accuracy": ["method", "run_tolerance", "order", "sample_parameter"],
 }
 
+Contents = tuple[dict[str, Any], dict[str, Any]]  # {name: (array, attributes)} of the datasets; attributes of the file
+
 
 def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
     """Reads a file written by eigentrail into memory: an xarray Dataset with labels as coordinates.
 
-    The accessor `.eigentrail` of the Dataset has functions for each kind of file; see `Eigentrail`.
+    The accessor `.eigentrail` of the Dataset has functions for each kind of file; see `Eigentrail`. Raises ValueError for
+    files of other programs and for damaged ones.
     """
     path = os.fspath(path)
     with builtins.open(path, "rb") as file:
-        image = file.read()
-    try:
-        with h5py.File(path, "r") as file:
-            return _labelled(file, path, image)
-    except BlockingIOError as error:
-        raise BlockingIOError(f"{path}: is still being written; wait until its trace has ended") from error
-    except OSError as error:
-        raise ValueError(f"{path}: is no HDF5 file; expected a file of eigentrail trace, boundary, map or accuracy") from error
+        return from_bytes(file.read(), path)
 
 
-def from_bytes(image: bytes) -> xarray.Dataset:
+def from_bytes(image: bytes, path: str = "result") -> xarray.Dataset:
     """The same for the bytes of a file."""
-    with h5py.File(io.BytesIO(image), "r") as file:
-        return _labelled(file, "result", image)
+    contents = read(image, path)
+    kind = _checked_format(path, contents[1])
+    try:
+        data = _dataset(contents)
+        if kind == "eigentrail-loci":
+            _add_event_kinds(data)
+            _add_frequencies(data)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{path}: is damaged: {error}") from error
+    data = data.set_coords([name for name in COORDINATES[kind] if name in data])
+    data.encoding[IMAGE] = image
+    return data
+
+
+def read(image: bytes, path: str = "result", names: Sequence[str] = ()) -> Contents:
+    """The datasets of a file, and its attributes. `names`: only those of them that it has, and the traced parameter."""
+    return engine().read_file(image, path, names)
 
 
 # What the dense output needs, and what a sweep says of a trace.
@@ -58,19 +70,20 @@ FOR_SELECTION = ("step", "mode", "mode_name", "eigenvalue", "frequency", "damped
                  "scene_parameter_unit")
 
 
-def part_from_bytes(image: bytes) -> xarray.Dataset:
-    """Of a loci file only what `sel` and a sweep need."""
-    with h5py.File(io.BytesIO(image), "r") as file:
-        data = _dataset(file, (*FOR_SELECTION, file.attrs["parameter"]))
+def part(contents: Contents) -> xarray.Dataset:
+    """Of a loci file only what `sel` and a sweep need; `contents` are those of FOR_SELECTION."""
+    data = _dataset(contents)
     data["natural_frequency"] = data.frequency
     _add_event_kinds(data)
     return data
 
 
-def part_like(like: xarray.Dataset, arrays: Mapping[str, Any], attributes: Mapping[str, str]) -> xarray.Dataset:
-    """The same from arrays and texts that `read_datasets` of the engine gives for the file; `like` is that part of a file of
-    the same scene, which has the same names of dimensions and attributes of datasets."""
-    values = dict(arrays, natural_frequency=arrays["frequency"])
+def part_like(like: xarray.Dataset, contents: Contents) -> xarray.Dataset:
+    """The same, in less time: `like` is that part of a file of the same scene, which has the same names of dimensions and
+    attributes of datasets."""
+    datasets, attributes = contents
+    values = {name: array for name, (array, _) in datasets.items()}
+    values["natural_frequency"] = values["frequency"]
     values["event_kind"], values["event_modes"] = _event_fields(values["events"])
     variables = {name: xarray.Variable(like[name].dims, array, like[name].attrs, fastpath=True)
                  for name, array in values.items()}
@@ -86,7 +99,7 @@ def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], force: bool
         raise ValueError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
                          "has returned, or write this one with to_netcdf")
     path = os.fspath(path)
-    if os.path.exists(path) and not force and _kind_of(path) != data.attrs["format"]:
+    if os.path.exists(path) and not force and not engine().may_be_replaced(path, data.attrs["format"]):
         raise FileExistsError(f"{path}: exists and is no file of the kind {data.attrs['format']}; give another name, or "
                               "force=True")
     replace(path, image)
@@ -109,55 +122,17 @@ def replace(path, image):
         raise
 
 
-def _labelled(file: Any, path: str, image: bytes) -> xarray.Dataset:
-    kind = _checked_format(path, file.attrs)
-    data = _dataset(file)
-    if kind == "eigentrail-loci":
-        _add_event_kinds(data)
-        _add_frequencies(data)
-    data = data.set_coords([name for name in COORDINATES[kind] if name in data])
-    data.encoding[IMAGE] = image
-    return data
-
-
-def _dataset(file: Any, names: Optional[Iterable[str]] = None) -> xarray.Dataset:
-    """What xarray.open_dataset gives for the file, in a fraction of its time: all datasets, or those of `names`, with the
-    names of their dimensions."""
+def _dataset(contents: Contents) -> xarray.Dataset:
+    """What xarray.open_dataset gives for the file, in a fraction of its time."""
+    datasets, of_file = contents
     variables: dict[str, Any] = {}
     labels: set[str] = set()
-    for name in file if names is None else [name for name in names if name in file]:
-        dataset = file[name]
-        if not isinstance(dataset, h5py.Dataset):
-            continue  # the type of complex numbers
-        attributes = {key: _plain(value) for key, value in dataset.attrs.items() if key not in NOT_ATTRIBUTES}
-        variables[name] = (_dimensions(file, name, dataset), _values(dataset), attributes)
-        labels.update(dataset.attrs.get("coordinates", "").split())
+    for name, (array, attributes) in datasets.items():
+        shown = {key: value for key, value in attributes.items() if key not in NOT_ATTRIBUTES}
+        variables[name] = (tuple(attributes.get("DIMENSION_LIST", (name,) * array.ndim)), array, shown)
+        labels.update(attributes.get("coordinates", "").split())
     coordinates = {name: value for name, value in variables.items() if value[0] == (name,) or name in labels}
-    return xarray.Dataset({name: value for name, value in variables.items() if name not in coordinates}, coordinates,
-                          {key: _plain(value) for key, value in file.attrs.items()})
-
-
-def _values(dataset: Any) -> Any:
-    return dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) is not None else dataset[()]
-
-
-def _dimensions(file: Any, name: str, dataset: Any) -> tuple[str, ...]:
-    references = dataset.attrs.get("DIMENSION_LIST")
-    if references is None:
-        return (name,) * dataset.ndim
-    return tuple(h5py.h5r.get_name(one[0], file.id).decode()[1:] for one in references)
-
-
-def _plain(value: Any) -> Any:
-    return value.decode() if isinstance(value, bytes) else value
-
-
-def _kind_of(path: str) -> Any:
-    try:
-        with h5py.File(path, "r") as file:
-            return file.attrs.get("format")
-    except OSError:
-        return None
+    return xarray.Dataset({name: value for name, value in variables.items() if name not in coordinates}, coordinates, of_file)
 
 
 def _umask() -> int:
@@ -167,13 +142,12 @@ def _umask() -> int:
 
 
 def _checked_format(path: str, attributes: Mapping[str, Any]) -> str:
-    expected = "expected a file of eigentrail trace, boundary, map or accuracy"
-    kind: Optional[str] = attributes.get("format")
-    if kind is None:
-        raise ValueError(f"{path}: has no attribute 'format'; {expected}")
+    kind = attributes.get("format")
+    if not isinstance(kind, str):
+        raise ValueError(f"{path}: has no attribute 'format'; {EXPECTED}")
     if kind not in COORDINATES:
-        raise ValueError(f"{path}: holds {kind!r}; {expected}")
-    if attributes.get("schema_version") != SCHEMA:
+        raise ValueError(f"{path}: holds {kind!r}; {EXPECTED}")
+    if not np.array_equal(attributes.get("schema_version"), SCHEMA):
         raise ValueError(f"{path}: has schema {attributes.get('schema_version')}, this reader knows schema {SCHEMA}; "
                          "take the reader that came with the program that wrote it")
     return kind

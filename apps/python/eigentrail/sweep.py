@@ -13,7 +13,7 @@ import xarray
 from .engine import SceneError, TraceError, engine
 from .given import Source
 from .progress import Bar, Progress
-from .files import FOR_SELECTION, part_from_bytes, part_like
+from .files import FOR_SELECTION, part, part_like, read
 from .runs import Run, trace_file
 
 RUNS = "eigentrail_runs"  # key of a Dataset's encoding: the Datasets of the single traces
@@ -63,13 +63,13 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
 class _Traced:
     """A trace of a sweep, or the error that kept it from beginning."""
 
-    def __init__(self, run: Any, datasets: Any, like: Optional["_Traced"], points: Any):
+    def __init__(self, run: Any, contents: Any, like: Optional["_Traced"], points: Any):
         self.run = run
         self.remarks: list[str] = run.remarks if isinstance(run, Run) else []
         self.loci: Optional[xarray.Dataset] = None
         if isinstance(run, Run):
             known = None if like is None else like.loci
-            self.loci = part_from_bytes(run.image) if known is None else part_like(known, *datasets)
+            self.loci = part(contents) if known is None else part_like(known, contents)
         self._values: Any = None  # at which the loci were evaluated: for most sweeps those of the first trace are common
         self._part: Optional[xarray.Dataset] = None
         if self.loci is not None:
@@ -97,7 +97,7 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             traced = trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
         except TraceError as error:
             return error, None
-        return traced, engine().read_datasets(traced.image, FOR_SELECTION)
+        return traced, read(traced.image, names=FOR_SELECTION)
 
     with ThreadPoolExecutor(jobs) as pool, Bar(progress, "sweep") as show:
         futures: list[Future[Any]] = [pool.submit(run, place) for place in places]
@@ -105,8 +105,8 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             found: list[_Traced] = []
             for done, future in enumerate(futures):
                 first = next((one for one in found if one.loci is not None), None)
-                run_here, datasets = future.result()
-                found.append(_Traced(run_here, datasets, first, points))
+                run_here, contents = future.result()
+                found.append(_Traced(run_here, contents, first, points))
                 if show is not None:
                     show((done + 1) / len(futures), done + 1)
             return found

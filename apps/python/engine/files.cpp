@@ -2,11 +2,13 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <variant>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "eigentrail/report/report.hpp"
+#include "eigentrail/store/output_file.hpp"
 #include "engine.hpp"
 
 namespace py = pybind11;
@@ -35,23 +37,10 @@ std::map<std::string, std::map<std::string, std::string>> formats() {
   return result;
 }
 
-struct StoredArray {
-  Shape shape;
-  std::variant<std::vector<double>, std::vector<Complex>, std::vector<std::int64_t>, std::vector<std::string>>
-      values;
-};
-
-StoredArray stored_array(const Hdf5File& file, const std::string& name) {
-  switch (file.element_type(name)) {
-    case ElementType::real:
-      return {file.shape(name), file.read_real(name)};
-    case ElementType::complex:
-      return {file.shape(name), file.read_complex(name)};
-    case ElementType::integer:
-      return {file.shape(name), file.read_integers(name)};
-    default:
-      return {file.shape(name), file.read_texts(name)};
-  }
+/// Text in UTF-8; bytes that are none, as damaged files have them, become replacement characters.
+py::object as_text(const std::string& text) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
 }
 
 /// An array of NumPy that owns its values; texts are objects.
@@ -60,37 +49,62 @@ py::array as_numpy(const StoredArray& stored) {
     const std::vector<py::ssize_t> shape(stored.shape.begin(), stored.shape.end());
     if constexpr (std::is_same_v<Element, std::string>) {
       py::list texts;
-      for (const std::string& text : values) texts.append(text);
+      for (const std::string& text : values) texts.append(as_text(text));
       return py::array(py::module_::import("numpy").attr("array")(texts, "object")).reshape(shape);
     } else {
       return py::array_t<Element>(shape, values.data());
     }
   };
-  return std::visit(with_values, stored.values);
+  return std::visit(with_values, stored.elements);
 }
 
-/// Those of the datasets `names` that a loci file has, its traced parameter, and its attributes that are
-/// texts: {name: array}, {name: text}. Other threads of Python run while the file is read.
-std::pair<py::dict, std::map<std::string, std::string>> read_datasets(const py::bytes& image,
-                                                                      std::vector<std::string> names) {
+/// Single values become scalars of NumPy and texts.
+py::dict as_python(const std::map<std::string, StoredArray>& attributes) {
+  py::dict result;
+  for (const auto& [name, value] : attributes) result[as_text(name)] = as_numpy(value)[py::tuple()];
+  return result;
+}
+
+struct NamedDataset {
+  std::string name;
+  StoredArray array;
+  std::map<std::string, StoredArray> attributes;
+};
+
+std::vector<NamedDataset> datasets_in(const Hdf5File& file, std::vector<std::string> names) {
+  if (names.empty()) {
+    names = file.members("/");
+  } else {
+    names.push_back(file.text_attribute("parameter"));
+    std::erase_if(names, [&](const std::string& name) { return !file.has(name); });
+  }
+  std::vector<NamedDataset> datasets;
+  for (const std::string& name : names) {
+    if (std::optional<StoredArray> array = file.read(name))
+      datasets.push_back({name, std::move(*array), file.attributes(name)});
+  }
+  return datasets;
+}
+
+/// The datasets of a file, {name: (array, attributes)}, and its attributes. The attribute DIMENSION_LIST of a
+/// dataset has the names of its dimensions. `names`: only those of them that the file has, and the traced
+/// parameter; empty: all. Other threads of Python run while the file is read. Throws InputError if the file,
+/// called `called`, is no HDF5 file or damaged.
+std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called,
+                                        const std::vector<std::string>& names) {
   const std::string_view bytes = image;
-  std::map<std::string, StoredArray> arrays;
-  std::map<std::string, std::string> texts;
+  std::vector<NamedDataset> datasets;
+  std::map<std::string, StoredArray> attributes;
   {
     const py::gil_scoped_release released;
-    const Hdf5Turn turn;
-    const Hdf5File file = Hdf5File::from_image("result", bytes);
-    names.push_back(file.text_attribute("parameter"));
-    for (const std::string& name : names) {
-      if (file.has(name)) arrays.emplace(name, stored_array(file, name));
-    }
-    for (const std::string& name : file.attribute_names()) {
-      if (file.is_text_attribute(name)) texts.emplace(name, file.text_attribute(name));
-    }
+    const Hdf5File file = Hdf5File::from_image(called, bytes);
+    attributes = file.attributes("/");
+    datasets = datasets_in(file, names);
   }
   py::dict result;
-  for (const auto& [name, array] : arrays) result[py::str(name)] = as_numpy(array);
-  return {result, texts};
+  for (const auto& [name, array, of_dataset] : datasets)
+    result[as_text(name)] = py::make_tuple(as_numpy(array), as_python(of_dataset));
+  return {result, as_python(attributes)};
 }
 
 }  // namespace
@@ -99,7 +113,8 @@ void add_files(py::module_& module) {
   module.def("import_files", &import_files, py::arg("format"), py::arg("files"), py::arg("options"),
              py::arg("folder"));
   module.def("import_formats", &formats);
-  module.def("read_datasets", &read_datasets, py::arg("image"), py::arg("names"));
+  module.def("read_file", &read_file, py::arg("image"), py::arg("called"), py::arg("names"));
+  module.def("may_be_replaced", &may_be_replaced, py::arg("path"), py::arg("format"));
   module.def("drawing_data", &drawing_data, py::arg("path"), py::arg("node"),
              py::call_guard<py::gil_scoped_release>());
   module.def("write_report", &write_report, py::arg("files"), py::arg("path"),

@@ -1,7 +1,7 @@
 """What only the scene in a file says: the frequency of the excitation, and the links between points and bodies.
 
-The compiled engine reads it. Without the engine the excitation is known where the parameter is an angular velocity, and
-figures of shapes have no links.
+It is read from the file that the Dataset was made from. Without that the excitation is known where the parameter is an angular
+velocity, and figures of shapes have no links.
 """
 
 import json
@@ -42,15 +42,11 @@ def _read(loci, node):
     image = loci.encoding.get(files.IMAGE)
     if image is None:
         return None
-    try:
-        compiled = engine()
-    except ImportError:
-        return None
     handle, path = tempfile.mkstemp(suffix=".h5")
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(image)
-        return json.loads(compiled.drawing_data(path, node))
+        return json.loads(engine().drawing_data(path, node))
     except SceneError:
         return None
     finally:

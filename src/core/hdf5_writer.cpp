@@ -1,12 +1,62 @@
+#include "core/hdf5_writer.hpp"
+
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "core/hdf5_handle.hpp"
 
 namespace eigentrail {
+
+struct Hdf5Writer::Implementation {
+  std::string path;
+  Handle file;
+
+  Handle dataset(const std::string& name) const {
+    return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path};
+  }
+
+  Shape shape(const std::string& name) const {
+    const Handle set = dataset(name);
+    const Handle space(H5Dget_space(set), H5Sclose, "read the shape of " + name);
+    std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
+    return {dims.begin(), dims.end()};
+  }
+
+  /// Writes `count` elements, a whole number of rows, from `first_row` on; extends the dataset if necessary.
+  void write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count,
+             const void* data);
+};
+
 namespace {
+
+/// Errors are reported by exceptions; HDF5's own error messages on stderr are switched off.
+void silence_error_stack() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+std::recursive_mutex& turn() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+/// Access properties of a file that stays in memory and is never written to disk by HDF5, because HDF5 does
+/// not recover from write errors. Memory grows in increments of 1 MiB.
+Handle memory_access() {
+  constexpr std::size_t increment = 1u << 20u;
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
+  check(H5Pset_fapl_core(access, increment, false), "keep a file in memory");
+  return access;
+}
+
+/// HDF5 treats files of equal name as the same file, so every name gets a running number.
+std::string unique_name(const std::string& name) {
+  static std::atomic<std::uint64_t> count{0};
+  return name + "#" + std::to_string(++count);
+}
 
 /// netCDF reads objects in alphabetical order. This name precedes those of all complex datasets, so netCDF
 /// knows the type before it reads them.
@@ -19,7 +69,7 @@ Handle stored_type(hid_t file, ElementType type) {
   const std::string action = "name the type of complex numbers";
   if (H5Lexists(file, complex_type_name, H5P_DEFAULT) > 0)
     return {H5Topen2(file, complex_type_name, H5P_DEFAULT), H5Tclose, action};
-  Handle named = complex_type();
+  Handle named = memory_type(type);
   const Handle properties(H5Pcreate(H5P_DATATYPE_CREATE), H5Pclose, action);
   check(H5Pset_obj_track_times(properties, false), action);
   check(H5Tcommit2(file, complex_type_name, named, H5P_DEFAULT, properties, H5P_DEFAULT), action);
@@ -37,7 +87,7 @@ void write_attribute(hid_t object, const std::string& name, hid_t type, const vo
 
 void write_text_attribute(hid_t object, const std::string& name, const std::string& value) {
   const char* text = value.c_str();
-  write_attribute(object, name, text_type(), &text);
+  write_attribute(object, name, memory_type(ElementType::text), &text);
 }
 
 /// Rows per chunk: about 16 KiB, between 1 and 1024 rows. Files have about thirty growing datasets, most of
@@ -50,17 +100,57 @@ hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
 
 }  // namespace
 
-void Hdf5File::Implementation::write(const std::string& name, std::uint64_t first_row, ElementType type,
-                                     std::size_t count, const void* data) {
+Hdf5Turn::Hdf5Turn() : lock_(turn()) {}
+
+Hdf5Writer::Hdf5Writer(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
+Hdf5Writer& Hdf5Writer::operator=(Hdf5Writer&&) noexcept = default;
+Hdf5Writer::~Hdf5Writer() = default;
+
+Hdf5Writer Hdf5Writer::create(const std::string& path) {
+  silence_error_stack();
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + path);
+  return Hdf5Writer(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
+}
+
+Hdf5Writer Hdf5Writer::in_memory(const std::string& name) {
+  silence_error_stack();
+  Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory_access()), H5Fclose,
+              "create " + name);
+  return Hdf5Writer(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+}
+
+Hdf5Writer Hdf5Writer::from_image(const std::string& name, std::string_view image) {
+  silence_error_stack();
+  const Handle access = memory_access();
+  check(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "take " + name);
+  Handle file(H5Fopen(unique_name(name).c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + name);
+  return Hdf5Writer(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+}
+
+std::string Hdf5Writer::image() {
+  const std::string action = "make an image of " + implementation_->path;
+  flush();
+  const ssize_t size = H5Fget_file_image(implementation_->file, nullptr, 0);
+  if (size < 0) throw Hdf5Error("HDF5 could not " + action);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(implementation_->file, bytes.data(), bytes.size()) != size)
+    throw Hdf5Error("HDF5 could not " + action);
+  return bytes;
+}
+
+void Hdf5Writer::flush() {
+  check(H5Fflush(implementation_->file, H5F_SCOPE_GLOBAL), "flush " + implementation_->path);
+}
+
+void Hdf5Writer::Implementation::write(const std::string& name, std::uint64_t first_row, ElementType type,
+                                       std::size_t count, const void* data) {
   if (count == 0) return;
   const std::string action = "write dataset " + name + " of " + path;
   const Handle set = dataset(name);
-  std::vector<hsize_t> dims;
-  {
-    const Handle space(H5Dget_space(set), H5Sclose, action);
-    dims.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), action);
-  }
+  const Shape found = shape(name);
+  std::vector<hsize_t> dims(found.begin(), found.end());
   hsize_t row = 1;
   for (std::size_t i = 1; i < dims.size(); ++i) row *= dims[i];
   if (row == 0 || count % row != 0) throw Hdf5Error(action + ": the data are no whole number of rows");
@@ -79,7 +169,7 @@ void Hdf5File::Implementation::write(const std::string& name, std::uint64_t firs
   check(H5Dwrite(set, memory_type(type), memory, space, H5P_DEFAULT, data), action);
 }
 
-void Hdf5File::create_dataset(const DatasetSpec& spec) {
+void Hdf5Writer::create_dataset(const DatasetSpec& spec) {
   const std::string action = "create dataset " + spec.name + " of " + implementation_->path;
   std::vector<hsize_t> dims(spec.shape.begin(), spec.shape.end());
   std::vector<hsize_t> limits = dims;
@@ -114,55 +204,70 @@ void Hdf5File::create_dataset(const DatasetSpec& spec) {
   for (const auto& [name, value] : spec.attributes) write_text_attribute(set, name, value);
 }
 
-void Hdf5File::extend(const std::string& dataset, unsigned dimension, std::uint64_t size) {
+void Hdf5Writer::extend(const std::string& dataset, unsigned dimension, std::uint64_t size) {
   Shape dims = shape(dataset);
   dims.at(dimension) = size;
   const std::vector<hsize_t> extent(dims.begin(), dims.end());
   check(H5Dset_extent(implementation_->dataset(dataset), extent.data()), "extend dataset " + dataset);
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
-                          const std::vector<double>& data) {
+void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
+                            const std::vector<double>& data) {
   implementation_->write(dataset, first_row, ElementType::real, data.size(), data.data());
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
-                          const std::vector<Complex>& data) {
+void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
+                            const std::vector<Complex>& data) {
   implementation_->write(dataset, first_row, ElementType::complex, data.size(), data.data());
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
-                          const std::vector<std::int64_t>& data) {
+void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
+                            const std::vector<std::int64_t>& data) {
   implementation_->write(dataset, first_row, ElementType::integer, data.size(), data.data());
 }
 
-void Hdf5File::write_rows(const std::string& dataset, std::uint64_t first_row,
-                          const std::vector<std::string>& data) {
+void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
+                            const std::vector<std::string>& data) {
   std::vector<const char*> texts;
   texts.reserve(data.size());
   for (const std::string& text : data) texts.push_back(text.c_str());
   implementation_->write(dataset, first_row, ElementType::text, texts.size(), texts.data());
 }
 
-void Hdf5File::make_scale(const std::string& dataset, const std::string& label) {
+void Hdf5Writer::make_scale(const std::string& dataset, const std::string& label) {
   const Handle set = implementation_->dataset(dataset);
   check(H5DSset_scale(set, label.c_str()), "make " + dataset + " a dimension scale");
 }
 
-void Hdf5File::attach_scale(const std::string& dataset, const std::string& scale, unsigned dimension) {
+void Hdf5Writer::attach_scale(const std::string& dataset, const std::string& scale, unsigned dimension) {
   const Handle set = implementation_->dataset(dataset);
   const Handle scale_set = implementation_->dataset(scale);
   check(H5DSattach_scale(set, scale_set, dimension), "attach scale " + scale + " to " + dataset);
 }
 
-void Hdf5File::set_attribute(const std::string& name, const std::string& value) {
+void Hdf5Writer::set_attribute(const std::string& name, const std::string& value) {
   write_text_attribute(implementation_->file, name, value);
 }
-void Hdf5File::set_attribute(const std::string& name, double value) {
+void Hdf5Writer::set_attribute(const std::string& name, double value) {
   write_attribute(implementation_->file, name, H5T_NATIVE_DOUBLE, &value);
 }
-void Hdf5File::set_attribute(const std::string& name, std::int64_t value) {
+void Hdf5Writer::set_attribute(const std::string& name, std::int64_t value) {
   write_attribute(implementation_->file, name, H5T_NATIVE_INT64, &value);
+}
+
+Shape Hdf5Writer::shape(const std::string& dataset) const {
+  return implementation_->shape(dataset);
+}
+
+std::string Hdf5Writer::units(const std::string& dataset) const {
+  const std::string action = "read the units of " + dataset;
+  const Handle set = implementation_->dataset(dataset);
+  const Handle attribute(H5Aopen(set, "units", H5P_DEFAULT), H5Aclose, action);
+  char* text = nullptr;
+  check(H5Aread(attribute, memory_type(ElementType::text), &text), action);
+  const std::string units = text == nullptr ? "" : text;
+  H5free_memory(text);
+  return units;
 }
 
 }  // namespace eigentrail

@@ -4,10 +4,11 @@
 
 #include <string>
 
-namespace eigentrail {
+namespace eigentrail::reader {
 
 /// libmatio reads a file that is cut short as if it had fewer variables, and fills a variable that has fewer
-/// numbers than its dimensions say up with zeros. Throws InputError for both. Files of other versions pass.
+/// numbers than its dimensions say up with zeros. Throws std::runtime_error for both. Files of other versions
+/// pass.
 void check_mat_elements(const std::string& path);
 
-}  // namespace eigentrail
+}  // namespace eigentrail::reader

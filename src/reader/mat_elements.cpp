@@ -1,4 +1,4 @@
-#include "import/mat_elements.hpp"
+#include "reader/mat_elements.hpp"
 
 #include <zlib.h>
 
@@ -9,13 +9,13 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
-#include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 
-namespace eigentrail {
+namespace eigentrail::reader {
 namespace {
 
 constexpr std::size_t tag_bytes = 8;
@@ -70,7 +70,7 @@ std::size_t bytes_of_number(std::uint32_t type) {
 }
 
 /// Checks a variable of numbers by its first bytes.
-void check_variable(std::string_view bytes, bool swapped, const std::string& path) {
+void check_variable(std::string_view bytes, bool swapped) {
   Elements elements(bytes, swapped);
   if (bytes.size() < tag_bytes || elements.word(bytes, 0) != matrix_type) return;
   elements.skip(tag_bytes);
@@ -90,8 +90,8 @@ void check_variable(std::string_view bytes, bool swapped, const std::string& pat
   if (data->length / size >= count) return;
   std::string shown(name->content);
   for (char& c : shown) c = static_cast<unsigned char>(c) < 128 ? c : '?';
-  throw InputError(path + ": variable " + printable(shown) + " has " + std::to_string(data->length / size) +
-                   " numbers; its dimensions announce " + std::to_string(count));
+  throw std::runtime_error("variable " + printable(shown) + " has " + std::to_string(data->length / size) +
+                           " numbers; its dimensions announce " + std::to_string(count));
 }
 
 /// The first bytes of what was compressed; fewer if they are damaged.
@@ -132,9 +132,9 @@ void check_mat_elements(const std::string& path) {
     const Elements top(beginning, swapped);
     const bool compressed = top.word(beginning, 0) == compressed_type;
     at += tag_bytes + top.word(beginning, 4);
-    check_variable(compressed ? unpacked(beginning.substr(tag_bytes)) : beginning, swapped, path);
+    check_variable(compressed ? unpacked(beginning.substr(tag_bytes)) : beginning, swapped);
   }
-  if (at != size) throw InputError(path + ": ends within a variable; it was cut short");
+  if (at != size) throw std::runtime_error("ends within a variable; it was cut short");
 }
 
-}  // namespace eigentrail
+}  // namespace eigentrail::reader

@@ -1,0 +1,99 @@
+// The program that reads a file of HDF5 or MATLAB for another process (core/reader_process.hpp). What it has
+// open is its end of a socket and the file.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <new>
+
+#include "core/archive.hpp"
+#include "core/reader_requests.hpp"
+#include "reader/hdf5_source.hpp"
+#include "reader/matlab_source.hpp"
+
+namespace eigentrail::reader {
+namespace {
+
+void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
+  rlimit limits{};
+  getrlimit(resource, &limits);
+  limits.rlim_cur = limits.rlim_max = std::min(most, limits.rlim_max);
+  setrlimit(resource, &limits);
+}
+
+/// After the file is open, wherever links in it lead.
+void open_nothing_else() {
+  limit(RLIMIT_NOFILE, 0);
+}
+
+class Server {
+ public:
+  /// Answers requests until the other process has gone.
+  void run() {
+    while (const std::optional<std::string> request = receive_message(reader_socket)) {
+      alarm(seconds_);  // ends the process
+      const std::string found = answer_or_reason(*request);
+      alarm(0);
+      if (!send_message(reader_socket, found)) return;
+    }
+  }
+
+ private:
+  /// What requests may take: for the contents of usual files, and in proportion to the size of this one.
+  void allow_for(std::uint64_t bytes) {
+    limit(RLIMIT_AS, (768U << 20U) + 4 * bytes);
+    seconds_ += static_cast<unsigned>(bytes / 10'000'000);
+    alarm(seconds_);
+  }
+
+  std::string answer_or_reason(const std::string& message) {
+    try {
+      return answer(message);
+    } catch (const std::bad_alloc&) {
+      return packed(false, std::string("is damaged, or needs more memory than a file of its size may take"));
+    } catch (const std::exception& error) {
+      return packed(false, std::string(error.what()));
+    }
+  }
+
+  std::string answer(const std::string& message) {
+    ReaderRequest request{};
+    std::string name;
+    std::uint64_t first = 0, rows = 0;
+    unpack(message, request, name, first, rows);
+    const bool is_image = request == ReaderRequest::open_image;
+    switch (request) {
+      case ReaderRequest::matlab:
+        allow_for(std::filesystem::file_size(name));
+        return packed(true, read_matlab(name.c_str(), open_nothing_else));
+      case ReaderRequest::open:
+      case ReaderRequest::open_image:
+        allow_for(is_image ? name.size() : std::filesystem::file_size(name));
+        file_.emplace(name, is_image);
+        open_nothing_else();
+        return packed(true, true);
+      case ReaderRequest::has:
+        return packed(true, file_->has(name));
+      case ReaderRequest::members:
+        return packed(true, file_->members(name));
+      case ReaderRequest::attributes:
+        return packed(true, file_->attributes(name));
+      default:
+        return packed(true, file_->read(name, first, rows));
+    }
+  }
+
+  unsigned seconds_ = 5;
+  std::optional<Hdf5Source> file_;
+};
+
+}  // namespace
+}  // namespace eigentrail::reader
+
+int main() {
+  eigentrail::reader::limit(RLIMIT_CORE, 0);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  eigentrail::reader::Server().run();
+}
