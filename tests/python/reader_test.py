@@ -12,7 +12,6 @@ import xarray
 
 from program import BIRTH, SCENES, ProgramTest
 
-HERE = pathlib.Path(__file__).resolve()
 
 
 class FileTest(ProgramTest):
@@ -220,12 +219,6 @@ class OtherFiles(ProgramTest):
         self.assert_refused_with({"format": "eigentrail-x"}, "holds 'eigentrail-x'; expected a file of eigentrail")
         later = {"format": "eigentrail-loci", "schema_version": 2}
         self.assert_refused_with(later, "has schema 2, this reader knows schema 1")
-
-
-class Version(unittest.TestCase):
-    def test_it_is_that_of_the_program(self):
-        project = (HERE.parents[2] / "CMakeLists.txt").read_text(encoding="utf-8")
-        self.assertEqual(re.search(r"project\(eigentrail VERSION (\S+)", project)[1], eigentrail.__version__)
 
 
 if __name__ == "__main__":
