@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/formats.hpp"
@@ -35,7 +36,7 @@ class MatReader {
   explicit MatReader(const std::string& path) : path_(path), file_(nullptr, &Mat_Close) {
     Mat_LogInitFunc("eigentrail", keep_message);
     last_message().clear();
-    if (!std::filesystem::is_regular_file(path)) fail("no such file");
+    require_plain_file(path);
     check_mat_elements(path);
     file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!file_) fail("is no file of MATLAB (.mat)" + reason());

@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/accuracy_writer.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
+#include "eigentrail/store/loci_file.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/map_writer.hpp"
 
@@ -62,9 +63,7 @@ Json attributes_data(const Hdf5File& file) {
 }
 
 Json file_data(const std::string& path, const ReportBudget& budget) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
+  require_result_file(path);
   try {
     const Hdf5File file = Hdf5File::open(path);
     Json data = data_of_kind(file, path, budget);

@@ -9,6 +9,7 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
@@ -309,10 +310,15 @@ double LociFile::certified_share(std::size_t mode) const {
   return covered > 0.0 ? certified / covered : NAN;
 }
 
+void require_result_file(const std::string& path) {
+  require_plain_file(path);
+  if (path.ends_with(".toml"))
+    throw InputError(path + ": is a scene, no result; trace it first: eigentrail trace " + path + " -o " +
+                     std::filesystem::path(path).filename().replace_extension(".h5").string());
+}
+
 LociFile read_loci(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
+  require_result_file(path);
   try {
     const Hdf5File file = Hdf5File::open(path);
     check_format(file, path);
