@@ -1,5 +1,6 @@
 """The functions of the reader: opening, selecting, tables, curves, and error messages."""
 
+import os
 import pathlib
 import re
 import tempfile
@@ -207,6 +208,13 @@ class Accuracy(FileTest):
 
 
 class OtherFiles(ProgramTest):
+    def test_pipes_and_scenes_are_refused(self):
+        os.mkfifo(self.folder / "pipe")
+        self.write("scene.toml", BIRTH)
+        for name, text in (("pipe", "not a plain file"), ("scene.toml", "is a scene, no result")):
+            with self.assertRaisesRegex(eigentrail.Error, text):
+                eigentrail.open(self.folder / name)
+
     def assert_refused_with(self, attributes, text):
         path = self.folder / "other.h5"
         with h5py.File(path, "w") as file:
