@@ -81,22 +81,24 @@ REFUSED = {
     "records": (np.zeros((3, 3), [("v", "f8"), ("w", "f8")]), "numbers")}
 
 
+def at_zero(scene):
+    return et.spectrum(scene, at=0.0, p=(0, 1))
+
+
 def traced(family):
     return et.trace(family, p=(0, 1), tolerance=1e-3, progress=False)
 
 
 P = [0.0, 0.4, 0.7, 1.0]
 ENTRIES = {
-    "matrix": lambda X: traced(et.Family(M=ONE, K={0: X, 1: ONE})),
+    "matrix": lambda X: at_zero(et.Family(M=ONE, K={0: X, 1: ONE})),
     "list": lambda X: traced(et.Family(M=ONE, K=[X, ONE])),
-    "list of sparse and dense": lambda X: traced(et.Family(M=sp.eye(3), K=[X, sp.csr_array(ONE)])),
-    "named": lambda X: traced(et.Family(M=ONE, K={"a": X, 1: ONE}, factors={"a": 1})),
+    "list of sparse and dense": lambda X: at_zero(et.Family(M=sp.eye(3), K=[X, sp.csr_array(ONE)])),
+    "named": lambda X: at_zero(et.Family(M=ONE, K={"a": X, 1: ONE}, factors={"a": 1})),
     "function": lambda X: traced(et.Family(lambda p: dict(M=ONE, K=_plus(X, p)))),
-    "samples": lambda X: traced(et.Samples(P, M=ONE, K=[X if p == 0.0 else K + p * ONE for p in P])),
-    "state space": lambda X: traced(et.StateSpace([_states(X if p == 0.0 else K + p * ONE) for p in P], P)),
-    "spectrum": lambda X: et.spectrum(et.Family(M=ONE, K=[X, ONE]), at=0.0, p=(0, 1)),
-    "table": lambda X: et.trace({"trace": {"parameter": "p", "from": 0, "to": 1},
-                                 "matrix_family": {"M": [ONE], "K": [X, ONE]}}, tolerance=1e-3, progress=False)}
+    "samples": lambda X: at_zero(et.Samples(P, M=ONE, K=[X if p == 0.0 else K + p * ONE for p in P])),
+    "state space": lambda X: at_zero(et.StateSpace([_states(X if p == 0.0 else K + p * ONE) for p in P], P)),
+    "table": lambda X: at_zero({"trace": {"parameter": "p", "from": 0, "to": 1}, "matrix_family": {"M": [ONE], "K": [X, ONE]}})}
 
 
 def _plus(X, p):

@@ -50,7 +50,7 @@ def value_text(value: Any) -> str:
     if isinstance(value, (float, complex, np.floating, np.complexfloating)):
         number = float(exact("number", value))
         return repr(number) if math.isfinite(number) else {math.inf: "inf", -math.inf: "-inf"}.get(number, "nan")
-    if isinstance(value, np.ndarray) or is_sparse(value):
+    if hasattr(value, "__array__") or is_sparse(value):
         return value_text(_listed(value))
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_key(key)} = {value_text(item)}" for key, item in value.items()) + "}"
@@ -61,8 +61,8 @@ def value_text(value: Any) -> str:
 
 def _listed(array: Any) -> Any:
     """The entries of an array as lists: numbers with exactly their values, or texts."""
-    if is_sparse(array):
-        array = array.toarray()
+    if not isinstance(array, np.ndarray):
+        array = array.toarray() if is_sparse(array) else np.asarray(array)
     if array.dtype.kind not in "USO":
         doubles = exact("array", array)
         array = array if array.dtype.kind in "biu" else doubles
