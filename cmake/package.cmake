@@ -2,7 +2,7 @@
 # /usr; the Python package goes to the folder in which Debian's interpreter searches.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME eigentrail)
-set(CPACK_PACKAGE_VENDOR "the maintainers of eigentrail")
+set(CPACK_PACKAGE_VENDOR "the eigentrail developers")
 set(CPACK_PACKAGE_CONTACT "eigentrail maintainers <maintainers@users.noreply.h-seed-ff760a79.example>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "follows eigenvalues of constrained mechanical systems")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
@@ -17,6 +17,7 @@ and the Python package, which computes, reads its files, and draws the pictures 
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 # Depends on the libraries to which the program is linked, with their versions. The Python package and the
 # static library need further packages, which are only recommended or suggested because not every user needs
 # them.

@@ -72,18 +72,11 @@ double or_nan(double value) {
   return std::isfinite(value) ? value : NAN;
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
 /// A value that is not known is an empty field.
 std::string field(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return std::isnan(*number) ? "" : exact_text(*number);
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
-  return quoted(std::get<std::string>(cell));
+  return csv_cell(std::get<std::string>(cell));
 }
 
 }  // namespace
@@ -178,7 +171,7 @@ ExportTable shapes_table(const LociFile& loci) {
 
 std::string csv_text(const ExportTable& table) {
   std::string text;
-  for (const std::string& column : table.columns) text += (text.empty() ? "" : ",") + quoted(column);
+  for (const std::string& column : table.columns) text += (text.empty() ? "" : ",") + csv_cell(column);
   text += "\n";
   for (const std::vector<Cell>& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + field(row[i]);

@@ -1,6 +1,11 @@
 // eigentrail: follows the eigenvalues of a constrained mechanical system while a parameter changes.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include "commands.hpp"
@@ -40,6 +45,51 @@ void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
     throw InputError("import: expected a format (" + formats +
                      ") and files; eigentrail import FORMAT --help says what is read");
   }
+}
+
+/// The command that was given, "import matlab" as well as "trace"; the program itself without one.
+const CLI::App& command_of(const CLI::App& program) {
+  const std::vector<CLI::App*> given = program.get_subcommands();
+  return given.empty() ? program : command_of(*given.front());
+}
+
+std::string name_of(const CLI::App& command) {
+  const CLI::App* above = command.get_parent();
+  return above == nullptr ? command.get_name() : name_of(*above) + " " + command.get_name();
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Says of an option that a command does not have which one may be meant, or which commands have it.
+std::string unknown_option(const CLI::App& program, const CLI::App& command, const std::string& given) {
+  const std::string name = given.substr(0, given.find('='));
+  const std::string text = "unknown option '" + name + "'; ";
+  if (const std::string meant = nearest_name(name, options_of(command)); !meant.empty())
+    return text + "did you mean '" + meant + "'?";
+  std::string others;
+  for (const CLI::App* other : program.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::vector<std::string> options = options_of(*other);
+    if (std::find(options.begin(), options.end(), name) != options.end())
+      others += (others.empty() ? "" : ", ") + other->get_name();
+  }
+  if (!others.empty()) return text + "it is one of " + others;
+  return text + suggestion(name, options_of(command));
+}
+
+/// What is wrong with a command line.
+std::string message_of(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App& command = command_of(program);
+  const std::string see = " (see " + name_of(command) + " --help)";
+  for (const std::string& left : command.remaining()) {
+    if (left.starts_with("--")) return unknown_option(program, command, left) + see;
+  }
+  return error.what() + see;
 }
 
 /// Rejects empty texts for numbers, which CLI11 reads as zero.
@@ -91,17 +141,42 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "eigentrail: %s (see eigentrail --help)\n", printable(error.what()).c_str());
+    std::fprintf(stderr, "eigentrail: %s\n", printable(message_of(program, error)).c_str());
     return bad_input;
   }
+}
+
+int run_and_report(int argc, char** argv) try {
+  use_one_thread_within_blas();
+  return run(argc, argv);
+} catch (const std::exception& error) {
+  return report_error(error);
+}
+
+/// A standard stream that is closed would become the next file that is opened, and get what is printed.
+/// Writing to what stands in its place fails.
+void occupy_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;                              // NOLINT: as POSIX has it
+    (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // NOLINT: likewise
+  }
+}
+
+/// The exit code, which is that of failed numbers where not all could be printed. A reader that has left
+/// needs no message.
+int after_printing(int exit_code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  if (errno != EPIPE)
+    std::fprintf(stderr, "eigentrail: not all could be printed%s%s\n", errno == 0 ? "" : ": ",
+                 errno == 0 ? "" : std::strerror(errno));
+  return exit_code == done ? numbers_failed : exit_code;
 }
 
 }  // namespace
 }  // namespace eigentrail::app
 
-int main(int argc, char** argv) try {
-  eigentrail::app::use_one_thread_within_blas();
-  return eigentrail::app::run(argc, argv);
-} catch (const std::exception& error) {
-  return eigentrail::app::report_error(error);
+int main(int argc, char** argv) {
+  eigentrail::app::occupy_standard_streams();
+  return eigentrail::app::after_printing(eigentrail::app::run_and_report(argc, argv));
 }

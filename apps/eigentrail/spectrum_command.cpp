@@ -86,7 +86,7 @@ void print_csv(const std::vector<ShownPoint>& points) {
       for (const auto& [name, value] : row.items()) {
         names += (names.empty() ? "" : ",") + name;
         values += values.empty() ? "" : ",";
-        values += value.is_string()         ? "\"" + value.get<std::string>() + "\""
+        values += value.is_string()         ? csv_cell(value.get<std::string>())
                   : value.is_number_float() ? exact_text(value.get<double>())
                                             : value.dump();
       }

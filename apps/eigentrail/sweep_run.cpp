@@ -24,14 +24,6 @@ std::mutex& turn_at_files() {
   return mutex;
 }
 
-/// A field of a line of CSV: in quotes where it has to be.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string csv_number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? exact_text(*value) : "";
 }
@@ -134,12 +126,12 @@ std::optional<LeastDamping> least_damping(const RecordedPath& path) {
 
 std::string index_header(const std::vector<Varied>& varied) {
   std::string line = "run,file";
-  for (const Varied& one : varied) line += "," + csv_field(one.name);
+  for (const Varied& one : varied) line += "," + csv_cell(one.name);
   return line + ",exit,points,reached,flutter,divergence,least_damping,least_damping_at,reason\n";
 }
 
 std::string index_line(const SweepRow& row) {
-  std::string line = std::to_string(row.run) + "," + csv_field(row.file);
+  std::string line = std::to_string(row.run) + "," + csv_cell(row.file);
   for (const double value : row.values) line += "," + exact_text(value);
   const auto part_of_damping = [&row](double LeastDamping::*part) {
     return csv_number(row.damping ? std::optional((*row.damping).*part) : std::nullopt);
@@ -147,7 +139,7 @@ std::string index_line(const SweepRow& row) {
   return line + "," + std::to_string(row.exit_code) + "," + std::to_string(row.points) + "," +
          csv_number(row.reached) + "," + csv_number(row.flutter) + "," + csv_number(row.divergence) + "," +
          part_of_damping(&LeastDamping::ratio) + "," + part_of_damping(&LeastDamping::p) + "," +
-         csv_field(printable(row.reason)) + "\n";
+         csv_cell(printable(row.reason)) + "\n";
 }
 
 SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,

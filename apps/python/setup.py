@@ -5,6 +5,7 @@ EIGENTRAIL_BUILD names a build tree to take it from; without it one is made, whi
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -22,8 +23,12 @@ class Engine(build_ext):
             subprocess.run(["cmake", "-S", SOURCES, "-B", tree, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
                             "-DEIGENTRAIL_BUILD_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", tree, "--target", "eigentrail_engine", "--parallel"], check=True)
-        (engine,) = (tree / "python" / "eigentrail").glob("_engine.*")
-        self.copy_file(str(engine), self.get_ext_fullpath(ext.name))
+        package = tree / "python" / "eigentrail"
+        (engine,) = package.glob("_engine.*")
+        target = pathlib.Path(self.get_ext_fullpath(ext.name))
+        self.copy_file(str(engine), str(target))
+        self.copy_file(str(package / "version.py"), str(target.parent))
 
 
-setup(ext_modules=[Extension("eigentrail._engine", sources=[])], cmdclass={"build_ext": Engine})
+VERSION = re.search(r"project\(eigentrail VERSION (\S+)", (SOURCES / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+setup(version=VERSION, ext_modules=[Extension("eigentrail._engine", sources=[])], cmdclass={"build_ext": Engine})

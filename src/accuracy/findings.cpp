@@ -1,15 +1,36 @@
 #include "eigentrail/accuracy/findings.hpp"
 
+#include <algorithm>
+
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/accuracy/shallow_extrema.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/stability/undecided_ranges.hpp"
 
 namespace eigentrail {
+namespace {
+
+/// Whether a mode of a trace is in the band somewhere.
+bool is_reached(const FrequencyBand& band, const RecordedPath& path, const std::vector<Event>& events) {
+  const auto frequency = path.eigenvalues.imag().array();
+  return (frequency >= band.lowest && frequency <= band.highest).any() ||
+         std::any_of(events.begin(), events.end(),
+                     [](const Event& event) { return event.kind == EventKind::band_edge; });
+}
+
+}  // namespace
 
 Findings find_ranges_and_errors(const Model& model, const TraceOptions& options, RecordedPath path,
                                 TraceResult& result) {
   const EigenvalueAccuracy accuracy{options.tolerance, result.s_ref};
   Findings found{std::move(path), {}, {}};
+  if (result.status == TraceStatus::completed && options.modes.band &&
+      !is_reached(*options.modes.band, found.path, result.events)) {
+    result.status = TraceStatus::outside_band;
+    result.message = "no mode lies in the band from " + exact_text(options.modes.band->lowest) + " to " +
+                     exact_text(options.modes.band->highest) +
+                     " rad/s anywhere on the range; the nearest was followed";
+  }
   found.ranges = stable_ranges(found.path, result.events, accuracy);
   found.errors = data_errors(model, options, found.path, result.events);
   if (!found.errors) return found;

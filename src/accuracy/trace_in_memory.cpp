@@ -31,6 +31,7 @@ TracedFile trace_in_memory(const TraceSetup& setup,
   if (traced.result.status != TraceStatus::stopped) {
     const Findings found =
         find_ranges_and_errors(*setup.model, setup.options, recorder.path(), traced.result);
+    if (traced.result.status == TraceStatus::outside_band) return traced;
     writer->finish(traced.result, found.ranges, found.errors ? &*found.errors : nullptr);
   }
   traced.bytes = writer->bytes();

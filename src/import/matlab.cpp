@@ -3,6 +3,7 @@
 
 #include "core/reader_process.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "import/formats.hpp"
 #include "import/named_arrays.hpp"
 
@@ -10,9 +11,7 @@ namespace eigentrail {
 namespace {
 
 std::vector<NamedArray> read_variables(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path + ": no such file, or not a plain file");
+  require_plain_file(path);
   const ReaderProcess reader(path);
   auto arrays = reader.ask<std::vector<NamedArray>>(ReaderRequest::matlab, path);
   for (const NamedArray& array : arrays) {

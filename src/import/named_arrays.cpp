@@ -1,10 +1,12 @@
 #include "import/named_arrays.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -73,13 +75,22 @@ class ArrayReader {
     } catch (const std::invalid_argument& error) {
       fail(error.what());
     }
+    read_gyroscopic();
     describe();
+    list_others();
     return std::move(result_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(options_.file + ": " + message);
+  }
+
+  /// The same for an array that becomes part of the model; the others are listed.
+  const NamedArray* take(const std::string& name) {
+    const NamedArray* array = find(name);
+    if (array != nullptr) taken_.insert(name);
+    return array;
   }
 
   const NamedArray* find(const std::string& name) const {
@@ -118,12 +129,13 @@ class ArrayReader {
   }
 
   /// The samples of one matrix; empty if it is absent.
-  std::vector<Matrix> matrices(const std::string& name) const {
-    if (const NamedArray* array = find(name)) return from_array(*array);
+  std::vector<Matrix> matrices(const std::string& name) {
+    if (const NamedArray* array = take(name)) return from_array(*array);
     const Family* family = find_family(name);
     std::vector<Matrix> result;
     if (family == nullptr) return result;
     for (const NamedArray* member : family->members) {
+      taken_.insert(member->name);
       std::vector<Matrix> one = from_array(*member);
       if (one.size() != 1)
         fail("array " + member->name + " is " + shape_text(member->shape) + "; expected n x n");
@@ -172,6 +184,51 @@ class ArrayReader {
     for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i)
       list += (i == 0 ? "" : ", ") + names[i];
     fail("no matrices: expected arrays A (and E), or K with M or C; found " + (list.empty() ? "none" : list));
+  }
+
+  /// Whether the model is of second order and has a gyroscopic matrix.
+  bool is_gyroscopic() const {
+    const SampledData& data = result_.samples;
+    return !data.K.empty() && data.A.empty() && (find("G") != nullptr || find_family("G") != nullptr);
+  }
+
+  /// The damping is C + speed G. One operating point becomes a family in the speed.
+  void read_gyroscopic() {
+    if (!is_gyroscopic()) return;
+    const SampledData& data = result_.samples;
+    const std::vector<Matrix> G = matrices("G");
+    if (samples_ > 1 || G.size() > 1)
+      fail("G, the gyroscopic matrix, is read of one operating point only; to samples add it: C + speed G");
+    const Eigen::Index n = data.K[0].rows();
+    PolynomialData& family = result_.family.emplace();
+    if (!data.M.empty()) family.M = {data.M[0]};
+    family.C = {data.C.empty() ? Matrix(Matrix::Zero(n, n)) : data.C[0], G[0]};
+    family.K = {data.K[0]};
+    family.state_names = data.state_names;
+    family.parameter_unit = option("unit").value_or("rad/s");
+    const bool named = data.values[0] != 0.0;
+    if (named) family.to = data.values[0];
+    if (!named) result_.parameter = "speed";
+    result_.understood.push_back("G is the gyroscopic matrix: the damping is C + " + result_.parameter +
+                                 " G, with " + result_.parameter + " in " + family.parameter_unit +
+                                 "; trace has --from and --to for its range");
+  }
+
+  /// Says which arrays are no part of the model, and asks about those whose names differ from that of a
+  /// matrix in their capitals only.
+  void list_others() {
+    std::string others;
+    for (const NamedArray& array : arrays_) {
+      if (taken_.contains(array.name)) continue;
+      others += (others.empty() ? "" : ", ") + array.name;
+      const char upper = array.name.size() == 1
+                             ? static_cast<char>(std::toupper(static_cast<unsigned char>(array.name[0])))
+                             : '\0';
+      if (upper != '\0' && upper != array.name[0] &&
+          std::string_view("MCKGEA").find(upper) != std::string_view::npos)
+        result_.warnings.push_back("array " + array.name + " is not read; did you mean " + upper + "?");
+    }
+    if (!others.empty()) result_.understood.push_back("not read: " + others);
   }
 
   /// A matrix that is given once holds for all samples.
@@ -234,7 +291,7 @@ class ArrayReader {
     if (name.empty()) {
       result_.parameter = "p";
       result_.samples.values = {0.0};
-      result_.understood.emplace_back("one sample, and no value of a parameter");
+      if (!is_gyroscopic()) result_.understood.emplace_back("one sample, and no value of a parameter");
       return;
     }
     const auto values = numbers_per_sample(name);
@@ -243,6 +300,9 @@ class ArrayReader {
            " numbers, one per sample" +
            (find(name) ? ", found " + shape_text(find(name)->shape) : "; " + suggestion(name, candidates())));
     result_.samples.values = *values;
+    taken_.insert(name);
+    if (const Family* numbered = find(name) == nullptr ? find_family(name) : nullptr)
+      for (const NamedArray* member : numbered->members) taken_.insert(member->name);
     result_.parameter = is_identifier(name) && name != "parameter" ? name : "p";
     result_.samples.parameter_unit = option("unit").value_or("");
   }
@@ -280,9 +340,9 @@ class ArrayReader {
     return text;
   }
 
-  const NamedArray* texts(std::initializer_list<const char*> names) const {
+  const NamedArray* texts(std::initializer_list<const char*> names) {
     for (const char* name : names) {
-      const NamedArray* array = find(name);
+      const NamedArray* array = take(name);
       if (array == nullptr) continue;
       if (!array->is_text) fail(std::string(name) + ": expected texts, found numbers");
       return array;
@@ -304,6 +364,7 @@ class ArrayReader {
     for (const char* name : {"derivative_order", "order"}) {
       const NamedArray* orders = find(name);
       if (orders == nullptr || orders->is_text || orders->size() != n) continue;
+      taken_.insert(name);
       for (const double order : orders->numbers) {
         if (order != 0.0 && order != 1.0 && order != 2.0)
           fail(std::string(name) + ": expected 0, 1 or 2 for each state, found " + exact_text(order));
@@ -355,13 +416,15 @@ class ArrayReader {
       result_.understood.push_back(matrices + ", " + size);
     if (!data.state_names.empty())
       result_.understood.push_back(std::to_string(data.size()) + " names of states");
-    if (data.digits) result_.understood.push_back(digits_text(*data.digits, option("digits").has_value()));
+    if (data.digits && !result_.family)
+      result_.understood.push_back(digits_text(*data.digits, option("digits").has_value()));
   }
 
   const std::vector<NamedArray>& arrays_;
   const ArrayOptions& options_;
   const std::map<std::string, std::string>& user_;
   std::vector<Family> families_;
+  std::set<std::string> taken_;  ///< names of the arrays that are parts of the model
   std::vector<std::vector<std::string>> names_per_sample_;
   std::size_t samples_ = 0;
   Imported result_;
@@ -378,6 +441,7 @@ std::map<std::string, std::string> array_options() {
 std::vector<ImportedItem> array_items(const std::string& cube) {
   return {{"A, E", "E x' = A x; " + cube + ", or n x n: the same for all samples"},
           {"M, C, K", "M x'' + C x' + K x = 0, likewise"},
+          {"G", "of one operating point: the gyroscopic matrix, C + speed G"},
           {"A00, A01, ...", "the same, one array n x n per sample"},
           {"parameter",
            "its values, one per sample, or another array that is named by --parameter or is the "

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/formats.hpp"
 #include "import/npy.hpp"
@@ -19,6 +20,7 @@ using Archive = std::unique_ptr<zip_t, decltype(&zip_discard)>;
 using Entry = std::unique_ptr<zip_file_t, decltype(&zip_fclose)>;
 
 Archive open_archive(const std::string& path) {
+  require_plain_file(path);
   int code = 0;
   Archive archive(zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code), &zip_discard);
   if (archive) return archive;

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/scene/limits.hpp"
 
 namespace eigentrail {
@@ -21,9 +22,8 @@ bool is_blank(char c) {
 }  // namespace
 
 std::string read_text_file(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path + ": no such file");
-  if (std::filesystem::file_size(path, error) > limits::text_file_bytes)
+  require_plain_file(path);
+  if (std::filesystem::file_size(path) > limits::text_file_bytes)
     throw InputError(path + ": is larger than " + std::to_string(limits::text_file_bytes >> 20U) + " MiB");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path + ": cannot be opened");

@@ -53,7 +53,11 @@ void check_top_level(const Scene& scene) {
   for (const auto& [key, value] : scene.root.entries) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     const std::string kind = family.empty() ? "" : " in a scene with " + heading;
-    throw scene_error(scene, value.where, key + ": unknown key" + kind + "; " + suggestion(key, known));
+    const std::string meant = nearest_name(key, known);
+    throw scene_error(scene, value.where,
+                      key + ": unknown key" + kind + ", not supported; " +
+                          (meant.empty() ? "" : "did you mean '" + meant + "'? ") +
+                          "All tables are in docs/scene-tables.md, or printed by eigentrail reference");
   }
   for (const char* name : {"disc", "support"}) {
     const Value* value = scene.root.find(name);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
@@ -78,8 +78,7 @@ const CsvColumn* CsvTable::find(const std::string& name) const {
 }
 
 CsvTable read_csv(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": cannot be opened");
+  std::istringstream file(read_text(path, limits::scene_bytes));
   CsvTable table{path, {}, {}};
   char separator = ',';
   std::size_t bytes = 0;

@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/accuracy_writer.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
+#include "eigentrail/store/loci_file.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/map_writer.hpp"
 
@@ -52,6 +53,7 @@ Json attributes_data(const Hdf5File& file) {
 }
 
 Json file_data(const std::string& path, const ReportBudget& budget) {
+  require_result_file(path);
   const Hdf5File file = Hdf5File::open(path);
   Json data = data_of_kind(file, path, budget);
   data["name"] = std::filesystem::path(path).filename().string();

@@ -90,6 +90,10 @@ class ExpressionParser {
     with_sign();
     for (;;) {
       if (accept('*')) {
+        if (accept('*')) {
+          at_ -= 2;
+          fail("powers are written with '^', as in x^2, not with '**'");
+        }
         with_sign();
         emit(Op::multiply);
       } else if (accept('/')) {

@@ -53,12 +53,13 @@ void set_start_of_trace(Scene& scene, const std::string& name) {
 }  // namespace
 
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message) {
-  return InputError(scene.path + at(where) + printable(message));
+  return InputError(scene.path + at(scene.generated ? SourceLocation{} : where) + printable(message));
 }
 
-Scene parse_scene(std::string text, const std::string& path) {
+Scene parse_scene(std::string text, const std::string& path, bool generated) {
   Scene scene;
   scene.path = path;
+  scene.generated = generated;
   scene.text = std::move(text);
   scene.root = parse_toml(scene.text, path);
   if (const Value* title = scene.root.find("title")) {

@@ -62,7 +62,7 @@ bool declares(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings) {
+ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings, std::string_view option) {
   ChangedScene changed{std::move(scene), {}};
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
@@ -74,21 +74,18 @@ ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings
     const std::string name = trimmed(setting.substr(0, equals));
     const std::string value = equals == std::string::npos ? "" : trimmed(setting.substr(equals + 1));
     if (name.empty() || value.empty())
-      throw InputError("--set " + setting + ": expected NAME=VALUE, such as --set drag=20");
-    const std::string label = "--set " + name;
+      throw InputError(std::string(option) + setting + ": expected NAME=VALUE, such as drag=20");
+    const std::string label = std::string(option) + name;
     const std::vector<std::string>& names = changed.scene.parameters.names();
     if (!declares(changed.scene, name)) {
-      const bool traced = changed.scene.parameters.index(name).has_value();
-      const std::string meant = traced ? "" : nearest_name(name, names);
-      if (!meant.empty())
-        throw InputError(label + ": no parameter is called '" + name + "'; did you mean '" + meant + "'?");
-      changed.warnings.push_back(label +
-                                 (traced ? ": has no effect: its values are those of the trace"
-                                         : ": the scene has no parameter of this name; it has no effect"));
+      if (!changed.scene.parameters.index(name))
+        throw InputError(label + ": no parameter is called '" + name + "'; " + suggestion(name, names));
+      changed.warnings.push_back(label + ": has no effect: its values are those of the trace");
       continue;
     }
     const std::string toml = as_toml(changed.scene, changed.scene.parameters.at(name), value, label);
-    Scene next = parse_scene(with_value(changed.scene.text, name, toml), changed.scene.path);
+    Scene next =
+        parse_scene(with_value(changed.scene.text, name, toml), changed.scene.path, changed.scene.generated);
     next.files = std::move(changed.scene.files);
     next.matrices = std::move(changed.scene.matrices);
     changed.scene = std::move(next);

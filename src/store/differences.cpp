@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -30,9 +31,7 @@ std::string first_difference(const std::string& before, const std::string& now) 
 }
 
 std::string bytes_of_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(path + ": is a folder; give the name of a file");
+  require_plain_file(path);
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file && !file.eof()) throw InputError(path + ": cannot be read");

@@ -8,6 +8,7 @@
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
@@ -293,6 +294,13 @@ double LociFile::certified_share(std::size_t mode) const {
   return covered > 0.0 ? certified / covered : NAN;
 }
 
+void require_result_file(const std::string& path) {
+  require_plain_file(path);
+  if (path.ends_with(".toml"))
+    throw InputError(path + ": is a scene, no result; trace it first: eigentrail trace " + path + " -o " +
+                     std::filesystem::path(path).filename().replace_extension(".h5").string());
+}
+
 namespace {
 
 LociFile loci_in(const Hdf5File& file, const std::string& path) {
@@ -331,6 +339,7 @@ LociFile loci_in(const Hdf5File& file, const std::string& path) {
 }  // namespace
 
 LociFile read_loci(const std::string& path) {
+  require_result_file(path);
   return loci_in(Hdf5File::open(path), path);
 }
 

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
-from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, FAMILY, SCENES, edited
+from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, SCENES, edited
 
 COMMANDS = ["trace", "spectrum", "eval", "events", "boundary", "map", "info", "explain", "accuracy"]
 
@@ -29,6 +29,56 @@ class Program(CommandTest):
         for command in COMMANDS:
             with self.subTest(command):
                 self.assertIn(f"  eigentrail {command} ", self.run_well(command, "--help").split("Example")[1])
+
+
+class UnknownNames(CommandTest):
+    """Names that mean nothing are errors with a suggestion, and point to the help of the command."""
+
+    def test_options(self):
+        self.write("scene.toml", FAMILY)
+        for command, *fragments in ((["trace", "scene.toml", "--tolerence", "1e-8"], "unknown option '--tolerence'; did you mean '--tolerance'?",
+                                     "(see eigentrail trace --help)"),
+                                    (["trace", "scene.toml", "--tolerence=1e-8"], "did you mean '--tolerance'?"),
+                                    (["trace", "scene.toml", "--harmonics", "2"], "unknown option '--harmonics'; it is one of plot"),
+                                    (["eval", "loci.h5", "--ta", "3"], "did you mean '--at'?", "(see eigentrail eval --help)"),
+                                    (["import", "numpy", "a.npz", "--digit", "3"], "did you mean '--digits'?", "(see eigentrail import numpy --help)"),
+                                    (["trace"], "SCENE is required", "(see eigentrail trace --help)"),
+                                    (["trace", "a.toml", "b.toml"], "b.toml", "(see eigentrail trace --help)"),
+                                    (["--versoin"], "did you mean '--version'?", "(see eigentrail --help)"),
+                                    (["sweep", "scene.toml", "--vary", "q=1,2"], "--vary q: no parameter is called 'q'"),
+                                    (["trace", "scene.toml", "--parameter", "q"], "no parameter is called 'q'; known: p")):
+            with self.subTest(command):
+                self.assert_refused(self.run_program(*command), fragments)
+
+    def test_tables(self):
+        for table, *fragments in (("[[gear]]", "gear: unknown key, not supported;", "docs/scene-tables.md"),
+                                  ("[[wheel]]", "wheel: unknown key, not supported;", "docs/scene-tables.md"),
+                                  ("[[sprng]]", "sprng: unknown key, not supported; did you mean 'spring'?")):
+            self.write("scene.toml", BLADE + f"\n{table}\nratio = 2\n")
+            with self.subTest(table):
+                self.assert_refused(self.run_program("trace", "scene.toml"), fragments)
+
+    def test_scenes_are_no_results(self):
+        self.write("scene.toml", FAMILY)
+        for command in (["events"], ["eval", "--at", "1"], ["info"], ["verify"], ["report", "-o", "a.html"], ["export"]):
+            with self.subTest(command):
+                self.assert_refused(self.run_program(command[0], "scene.toml", *command[1:]),
+                                    ["scene.toml: is a scene, no result; trace it first: eigentrail trace scene.toml -o scene.h5"])
+
+    def test_programs_are_no_texts(self):
+        self.assert_refused(self.run_program("trace", "/bin/ls"), ["/bin/ls: is not a text file"])
+        self.write("scene.toml", BLADE.replace('drag   = 2.0', 'drag   = "2**3"'))
+        self.assert_refused(self.run_program("trace", "scene.toml"), ["at character 2: powers are written with '^', as in x^2, not with '**'"])
+
+    def test_a_band_without_modes(self):
+        self.write("scene.toml", BLADE)
+        run = self.run_program("trace", "scene.toml", "-q", "--modes", "band = ['900 Hz', '901 Hz']")
+        self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED)
+        self.assertIn("no mode lies in the band", run.stderr)
+        run = self.run_program("spectrum", "scene.toml", "--modes", "band = ['900 Hz', '901 Hz']")
+        self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED)
+        self.assertIn("none of the modes with Im s between", run.stderr)
+        self.run_well("trace", "scene.toml", "-q", "--force", "--modes", "band = ['1 Hz', '2 Hz']")
 
 
 class Spectrum(CommandTest):

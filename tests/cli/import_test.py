@@ -182,6 +182,42 @@ class OneOperatingPoint(ImportTest):
         self.assert_modes(self.modes("new/model.toml"), self.exact)
 
 
+class Others(ImportTest):
+    """What is no part of the model is named."""
+
+    G = np.array([[0.0, 0.2, 0.0], [-0.2, 0.0, 0.1], [0.0, -0.1, 0.0]])
+
+    def test_gyroscopic_matrices_belong_to_a_speed(self):
+        for form, write in (("numpy", lambda **arrays: np.savez(self.folder / "a.npz", **arrays)),
+                            ("matlab", lambda **arrays: scipy.io.savemat(self.folder / "a.mat", arrays))):
+            for damping in ({}, {"C": DAMPING}):
+                write(M=MASS, K=STIFFNESS[0], G=self.G, **damping)
+                said = self.imported(form, "a.npz" if form == "numpy" else "a.mat")
+                self.assertIn("G is the gyroscopic matrix: the damping is C + speed G", said)
+                self.assertNotIn("not read", said)
+                C = damping.get("C", 0.0) + 1.7 * self.G
+                inverse = np.linalg.inv(MASS)
+                A = np.block([[np.zeros((3, 3)), np.eye(3)], [-inverse @ STIFFNESS[0], -inverse @ C]])
+                self.assert_modes(self.modes("new/model.toml", "--at", 1.7), np.linalg.eigvals(A), 1e-9)
+
+    def test_gyroscopic_matrices_of_samples_are_refused(self):
+        np.savez(self.folder / "a.npz", M=MASS, K=STIFFNESS, G=self.G, speed=SPEEDS)
+        self.assert_refused(self.run_program("import", "numpy", "a.npz", "-o", "new"), ["G, the gyroscopic matrix", "C + speed G"])
+
+    def test_arrays_that_nobody_reads_are_listed_and_small_letters_asked_about(self):
+        np.savez(self.folder / "a.npz", M=MASS, K=STIFFNESS[0], c=DAMPING, notes=np.ones(3), H=MASS)
+        said = self.imported("numpy", "a.npz")
+        self.assertIn("not read: c, notes, H", said)
+        self.assertIn("array c is not read; did you mean C?", said)
+        self.write("a.op4", nastran_files.op4_text({"MGG": MASS, "KGG": STIFFNESS[0], "GGG": self.G}))
+        self.assertIn("not read: GGG", self.imported("nastran", "a.op4"))
+
+    def test_all_arrays_of_a_model_are_read(self):
+        np.savez(self.folder / "a.npz", **{f"K{i:02d}": K for i, K in enumerate(STIFFNESS)}, M=MASS, state_names=["a", "b", "c"],
+                 **{f"w{i:02d}": p for i, p in enumerate(SPEEDS)})
+        self.assertNotIn("not read", self.imported("numpy", "a.npz"))
+
+
 class OpenFast(ImportTest):
     def test_modes_of_a_turbine(self):
         """To the digits that are printed in the test of OpenFAST's toolbox (tests/import/data/README.md)."""

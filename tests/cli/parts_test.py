@@ -163,7 +163,7 @@ BAD_MERGES = [
     ("another command", ["a1", "g2", "a3"], ["g2: belongs to another run", "eigentrail map", "eigentrail boundary"]),
     ("a map", ["a1", "whole.h5", "a3"], ["whole.h5: is no part of a run"]),
     ("a scene", ["a1", "scene.toml", "a3"], ["scene.toml: is no part of a run"]),
-    ("no such file", ["a1", "none", "a3"], ["none: cannot be read"]),
+    ("no such file", ["a1", "none", "a3"], ["none: no such file"]),
     ("a folder", ["a1", "folder", "a3"], ["folder: is a folder"]),
     ("an empty file", ["a1", "empty", "a3"], ["empty: is no part of a run, or damaged"]),
     ("an output that exists", ["a1", "a2", "a3", "-o", "whole.h5"], ["whole.h5: exists already", "--force"]),

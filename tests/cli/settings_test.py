@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from command_test_case import CommandTest
-from program import BLADE, EXIT_DONE, edited
+from program import BLADE, EXIT_DONE, FAMILY, edited
 
 SCENE = edited(BLADE, "length = 5.0", 'length = { value = 500, unit = "cm" }  # µ before the end')
 
@@ -40,17 +40,17 @@ class Settings(CommandTest):
                 self.run_well(command[0], "scene.toml", *command[1:], "--set", "mass=40")
 
     def test_without_effect_are_warned_of(self):
-        self.write("scene.toml", SCENE)
-        run = self.run_program("trace", "scene.toml", "-q", "--set", "stiffness=1")
+        self.write("scene.toml", FAMILY)
+        run = self.run_program("trace", "scene.toml", "-q", "--set", "p=1")
         self.assertEqual((run.returncode, run.stdout), (EXIT_DONE, ""))
-        self.assertEqual(run.stderr, "eigentrail: warning: --set stiffness: the scene has no parameter of this name; "
-                                     "it has no effect\n")
+        self.assertEqual(run.stderr, "eigentrail: warning: --set p: has no effect: its values are those of the trace\n")
 
     def test_are_checked_like_the_scene(self):
         self.write("scene.toml", SCENE)
         for setting, *fragments in (("drag=2*dragg", "--set drag", "did you mean 'drag'?"),
                                     ("mass=-1", "scene.toml:", "mass: must not be negative; found -1"),
                                     ("mass=2*mass", "[parameters] mass: is defined through itself"),
+                                    ("stiffness=1", "--set stiffness: no parameter is called 'stiffness'; known: omega, mass"),
                                     ("lenght=3", "--set lenght", "did you mean 'length'?"),
                                     ("length=3 s", "3 s does not fit length, which is in cm"),
                                     ("=3", "expected NAME=VALUE"), ("drag=", "expected NAME=VALUE")):

@@ -23,7 +23,7 @@ def is_broken(document, link):
 
 class Links(unittest.TestCase):
     def test_links_lead_somewhere(self):
-        for document in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]:
+        for document in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]:
             text = CODE.sub("", document.read_text(encoding="utf-8"))
             links = [first or second for first, second in LINK.findall(text)]
             inside = [link for link in links if not link.startswith(("http:", "https:"))]

@@ -37,6 +37,9 @@ class DebianPackage(unittest.TestCase):
             "lib/cmake/eigentrail/eigentrail-config.cmake",
             "lib/python3/dist-packages/eigentrail/__init__.py",
             "share/man/man1/eigentrail.1.gz",
+            "lib/python3/dist-packages/eigentrail/version.py",
+            "share/doc/eigentrail/LICENSE",
+            "share/doc/eigentrail/CHANGELOG.md",
             "share/doc/eigentrail/copyright",
             "share/doc/eigentrail/changelog.gz",
         ):
@@ -66,6 +69,11 @@ class DebianPackage(unittest.TestCase):
         picture = Path(self.folder.name) / "out.svg"
         run(program, "plot", loci, "-o", picture)
         self.assertTrue(picture.read_bytes().startswith(b"<?xml"))
+
+    def test_licences_are_named(self):
+        copyright_file = (self.root / "usr/share/doc/eigentrail/copyright").read_text(encoding="utf-8")
+        for name in ("License: BSD-3-clause", "License: Expat", "UMFPACK", "GPL"):
+            self.assertIn(name, copyright_file)
 
     def test_manual_names_every_command(self):
         manual = gzip.decompress((self.root / "usr/share/man/man1/eigentrail.1.gz").read_bytes()).decode()

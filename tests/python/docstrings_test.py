@@ -10,7 +10,8 @@ import eigentrail
 
 
 # Constants, errors, and what needs files or rotors: other tests run them.
-WITHOUT_EXAMPLE = {"__version__", "SceneError", "TraceError", "Imported", "Eigentrail", "from_files", "from_openfast", "from_ross", "open"}
+WITHOUT_EXAMPLE = {"__version__", "Error", "NotProjected", "NotResolved", "SceneError", "TraceError", "Imported", "Eigentrail",
+                   "from_files", "from_openfast", "from_ross", "open"}
 
 
 class Docstrings(unittest.TestCase):

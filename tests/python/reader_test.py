@@ -1,5 +1,6 @@
 """The functions of the reader: opening, selecting, tables, curves, and error messages."""
 
+import os
 import pathlib
 import re
 import tempfile
@@ -12,7 +13,6 @@ import xarray
 
 from program import BIRTH, SCENES, ProgramTest
 
-HERE = pathlib.Path(__file__).resolve()
 
 
 class FileTest(ProgramTest):
@@ -208,6 +208,13 @@ class Accuracy(FileTest):
 
 
 class OtherFiles(ProgramTest):
+    def test_pipes_and_scenes_are_refused(self):
+        os.mkfifo(self.folder / "pipe")
+        self.write("scene.toml", BIRTH)
+        for name, text in (("pipe", "not a plain file"), ("scene.toml", "is a scene, no result")):
+            with self.assertRaisesRegex(eigentrail.Error, text):
+                eigentrail.open(self.folder / name)
+
     def assert_refused_with(self, attributes, text):
         path = self.folder / "other.h5"
         with h5py.File(path, "w") as file:
@@ -220,12 +227,6 @@ class OtherFiles(ProgramTest):
         self.assert_refused_with({"format": "eigentrail-x"}, "holds 'eigentrail-x'; expected a file of eigentrail")
         later = {"format": "eigentrail-loci", "schema_version": 2}
         self.assert_refused_with(later, "has schema 2, this reader knows schema 1")
-
-
-class Version(unittest.TestCase):
-    def test_it_is_that_of_the_program(self):
-        project = (HERE.parents[2] / "CMakeLists.txt").read_text(encoding="utf-8")
-        self.assertEqual(re.search(r"project\(eigentrail VERSION (\S+)", project)[1], eigentrail.__version__)
 
 
 if __name__ == "__main__":

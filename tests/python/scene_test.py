@@ -1,8 +1,11 @@
 """Traces, boundaries, maps and studies from Python are those of the program, bit for bit."""
 
+import os
 import pathlib
 import tempfile
+import tomllib
 import unittest
+from functools import partial
 
 import eigentrail as et
 import numpy as np
@@ -16,7 +19,7 @@ class Scenes(ProgramTest):
         for scene in sorted(SCENES.glob("*.toml")):
             with self.subTest(scene.stem):
                 self.run_well("trace", scene, "-o", "program.h5", "--quiet", "--force")
-                et.trace(scene).eigentrail.save(self.folder / "python.h5")
+                et.trace(scene).eigentrail.save(self.folder / "python.h5", overwrite=True)
                 self.assertEqual(differences(self.folder / "program.h5", self.folder / "python.h5"), [])
 
     def test_settings_ranges_and_options_are_those_of_the_command_line(self):
@@ -82,9 +85,9 @@ class Faults(unittest.TestCase):
         self.assertIn(text, str(caught.exception))
 
     def test_bad_scenes_say_what_the_program_says(self):
-        self.assert_fails(et.SceneError, "scene.toml:9:1: [trace] from: is missing", et.trace, BLADE.replace("from = 100", "frum = 100"))
-        self.assert_fails(et.SceneError, "cannot be read", et.trace, "missing.toml")
-        self.assert_fails(et.SceneError, "did you mean 'drag'", et.trace, BLADE, drug=3)
+        self.assert_fails(et.SceneError, "scene:9:1: [trace] from: is missing", et.trace, BLADE.replace("from = 100", "frum = 100"))
+        self.assert_fails(et.SceneError, "missing.toml: no such file", et.trace, "missing.toml")
+        self.assert_fails(et.SceneError, "/bin/sh: is not a text file", et.trace, "/bin/sh")
         self.assert_fails(TypeError, "expected a scene", et.trace, 3)
         self.assert_fails(et.SceneError, "tolerance", et.trace, BLADE, tolerance=2)
         self.assert_fails(TypeError, "drag: expected a number", et.trace, BLADE, drag=None)
@@ -98,9 +101,46 @@ class Faults(unittest.TestCase):
         self.assert_fails(et.SceneError, "the ranges of two parameters", et.map, BLADE)
         self.assert_fails(TypeError, "numbers in the unit", et.map, BLADE, drag=("1", "2"))
 
-    def test_what_has_no_effect_is_a_warning(self):
-        with self.assertWarnsRegex(UserWarning, "has no effect"):
-            et.trace(BLADE, viscosity=2)
+    def test_names_that_mean_nothing_are_errors_with_a_suggestion(self):
+        trace, family = partial(et.trace, BLADE), et.Family(M=[[1.0]], K=[[[1.0]], [[1.0]]], parameter="p")
+        for function, names, text in (
+                (trace, {"drug": 3}, "drug: is no parameter of the scene, and no keyword of trace; did you mean 'drag'?"),
+                (trace, {"tolerence": 1e-8}, "did you mean 'tolerance'?"), (trace, {"omgea": (100, 5)}, "did you mean 'omega'?"),
+                (trace, {"settings": {"drug": 3}}, "did you mean 'drag'?"), (trace, {"viscosity": 2}, "known: omega, mass, length"),
+                (trace, {"options": {"max_stp": 1}}, "did you mean 'max_step'?"),
+                (trace, {"events": {"harmonic": [1]}}, "did you mean 'harmonics'?"),
+                (trace, {"modes": {"cuont": 2}}, "did you mean 'count'?"),
+                (partial(et.sweep, BLADE), {"over": {"drug": [1, 2]}}, "did you mean 'drag'?"),
+                (partial(et.sweep, BLADE, {"drag": [1, 2]}), {"tolerence": 1e-8}, "did you mean 'tolerance'?"),
+                (partial(et.map, BLADE), {"drag": (1, 2), "gird": 3}, "did you mean 'grid'?"),
+                (partial(et.boundary, BLADE), {"drug": (1, 2)}, "did you mean 'drag'?"),
+                (partial(et.spectrum, BLADE), {"mdoes": 2}, "did you mean 'modes'?"),
+                (partial(et.explain, BLADE), {"sensitvity": True}, "did you mean 'sensitivity'?"),
+                (partial(et.trace, family), {"omega": (0, 1)}, "omega: is no parameter"),
+                (partial(et.from_files, "numpi", "a.npz"), {}, "did you mean 'numpy'?"),
+                (partial(et.from_files, "numpy", "a.npz"), {"digit": 3}, "did you mean 'digits'?")):
+            with self.subTest(text, names=names):
+                self.assert_fails(et.SceneError, text, function, **names)
+
+    def test_messages_have_the_words_of_python(self):
+        as_dict = tomllib.loads(BLADE)
+        for scene, names in (({**as_dict, "gear": [{"ratio": 2}]}, {}), (as_dict, {"drag": "2*dragg"}), (as_dict, {"length": -1}),
+                             (as_dict, {"modes": {"band": [2]}}), ({**as_dict, "trace": {"parameter": "omega"}}, {}),
+                             (et.Family(M=[[1.0]], K={0: [[1.0]], "k": [[1.0]]}, factors={"k": "q*"}, parameter="p"), {"p": (0, 1)})):
+            with self.subTest(names=names), self.assertRaises(et.SceneError) as raised:
+                et.trace(scene, **names)
+            self.assertNotRegex(str(raised.exception), r"\.toml|:\d+:\d+|--|\.h5")
+        self.assert_fails(et.SceneError, "damping_ratio: must lie", et.boundary, BLADE, drag=(1, 2), damping_ratio=3.0)
+        self.assert_fails(et.SceneError, "grid: expected at least 2", et.map, BLADE, drag=(1, 2), grid=1)
+
+    def test_a_band_without_modes_is_an_error(self):
+        for function, text in ((et.trace, "no mode lies in the band"), (et.spectrum, "none of the modes with Im s between")):
+            self.assert_fails(et.TraceError, text, function, BLADE, modes={"band": ["900 Hz", "901 Hz"]})
+
+    def test_all_errors_have_one_base(self):
+        for error in (et.SceneError, et.TraceError, et.NotResolved, et.NotProjected):
+            self.assertTrue(issubclass(error, et.Error), error)
+        self.assertTrue(issubclass(et.NotResolved, et.TraceError))
 
     def test_what_cannot_be_traced_is_an_error(self):
         self.assert_fails(et.TraceError, "equilibrium", et.trace, PUSHED_TOO_FAR)
@@ -138,15 +178,22 @@ class Saving(unittest.TestCase):
         self.assertTrue(loci.identical(et.open(self.folder / "out.h5")))
         self.assertEqual([path.name for path in self.folder.iterdir()], ["out.h5"])
 
-    def test_only_files_of_the_same_kind_are_replaced(self):
-        loci = et.trace(FAMILY)
-        loci.eigentrail.save(self.folder / "out.h5")
-        loci.eigentrail.save(self.folder / "out.h5")
-        (self.folder / "notes.txt").write_text("mine")
-        with self.assertRaisesRegex(FileExistsError, "force=True"):
-            loci.eigentrail.save(self.folder / "notes.txt")
-        self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
-        loci.eigentrail.save(self.folder / "notes.txt", force=True)
+    def test_files_that_exist_are_kept_unless_they_shall_be_replaced(self):
+        samples, family = et.Samples([0, 1], M=[[1]], K=[[[1]], [[2]]], parameter="p"), et.Family(M=[[1]], K=[[1]], parameter="p")
+        for result, name in ((et.trace(FAMILY).eigentrail, "out.h5"), (family, "family.toml"), (samples, "samples.toml")):
+            (self.folder / name).write_text("mine")
+            with self.subTest(name), self.assertRaisesRegex(FileExistsError, f"{name}: exists; .*overwrite=True"):
+                result.save(self.folder / name)
+            self.assertEqual((self.folder / name).read_text(), "mine")
+            self.assertFalse((self.folder / name.replace(".toml", ".h5")).exists() and name != "out.h5")
+            result.save(self.folder / name, overwrite=True)
+            self.assertNotEqual((self.folder / name).read_bytes(), b"mine")
+        self.assertEqual(len(list(self.folder.iterdir())), 5)
+
+    def test_pipes_are_not_replaced(self):
+        os.mkfifo(self.folder / "out.h5")
+        with self.assertRaisesRegex(FileExistsError, "no regular file"):
+            et.trace(FAMILY).eigentrail.save(self.folder / "out.h5", overwrite=True)
 
     def test_a_part_of_a_result_cannot_be_saved(self):
         with self.assertRaisesRegex(ValueError, "part or a change"):

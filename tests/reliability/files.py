@@ -175,7 +175,7 @@ def reported(name, file, damage, *fragments):
 
 FORM = [
     loci("file that is gone", gone, "no such file"),
-    loci("file that is a folder", as_folder, "not a plain file"),
+    loci("file that is a folder", as_folder, "is a folder"),
     loci("file that is a pipe", pipe, "not a plain file"),
     loci("file of no bytes", content(b""), "cannot be read"),
     loci("file of one byte", cut(1), "cannot be read"),
@@ -201,7 +201,7 @@ FORM = [
     reported("half a boundary", "boundary.h5", cut(0.5), "cannot be read"),
     reported("half a study", "study.h5", cut(0.5), "cannot be read"),
     reported("map that is gone", "map.h5", gone, "no such file"),
-    reported("boundary that is a folder", "boundary.h5", as_folder, "not a plain file"),
+    reported("boundary that is a folder", "boundary.h5", as_folder, "is a folder"),
     reported("study of no bytes", "study.h5", content(b""), "cannot be read"),
     reported("page on a page", "page.html", lambda path: None, "cannot be read"),
 ]

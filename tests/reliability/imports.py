@@ -53,7 +53,7 @@ def lin(name, old, new, *fragments):
 OPENFAST = [
     row("lin of no bytes", "openfast", {"a.lin": ""}, "a.lin:", "no table 'Order of continuous states'"),
     row("lin that is gone", "openfast", {}, "a.lin: no such file", arguments=["a.lin"]),
-    row("lin that is a folder", "openfast", {"a.lin": lambda path: path.mkdir()}, "a.lin: no such file"),
+    row("lin that is a folder", "openfast", {"a.lin": lambda path: path.mkdir()}, "a.lin: is a folder"),
     row("lin cut within A", "openfast", {"a.lin": LIN[:-24]}, "a.lin:12: ", "the file ends before row 2 of A"),
     row("lin cut in a number of A", "openfast", {"a.lin": LIN[:-20]}, "a.lin:13: row 2 of A has 1 numbers"),
     row("lin that is binary", "openfast", {"a.lin": bytes(range(256)) * 40}, "a.lin:", "Order of continuous states"),

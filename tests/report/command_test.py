@@ -51,7 +51,7 @@ class ReportCommand(CommandTest):
         self.write("scene.toml", BLADE)
         with h5py.File(self.folder / "foreign.h5", "w") as file:
             file["x"] = 1.0
-        for name, fragment in (("missing.h5", "no such file"), ("scene.toml", "cannot be read"), ("foreign.h5", "none of eigentrail")):
+        for name, fragment in (("missing.h5", "no such file"), ("scene.toml", "is a scene, no result; trace it first"), ("foreign.h5", "none of eigentrail")):
             self.refused(name, "-o", "page.html", fragments=[f"{name}: ", fragment])
 
     def test_file_that_does_not_fit_itself_is_refused(self):

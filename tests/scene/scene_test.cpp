@@ -202,7 +202,7 @@ TEST_F(ReadScene, ReadsTheFileByteForByte) {
 }
 
 TEST_F(ReadScene, NamesTheFileInErrors) {
-  EXPECT_TRUE(input_error([&] { read_scene(path); }).starts_with(path + ": cannot be read"));
+  EXPECT_TRUE(input_error([&] { read_scene(path); }).starts_with(path + ": no such file"));
   EXPECT_TRUE(input_error([&] { read_scene(testing::TempDir()); }).starts_with(testing::TempDir()));
   std::ofstream(path) << "k = \n";
   EXPECT_TRUE(input_error([&] { read_scene(path); }).starts_with(path + ":1:"));

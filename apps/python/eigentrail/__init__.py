@@ -10,7 +10,7 @@
 """
 
 from .accessor import Eigentrail
-from .engine import SceneError, TraceError
+from .errors import Error, NotProjected, NotResolved, SceneError, TraceError
 from .families import Family, Samples, StateSpace
 from .files import open
 from .gradients import gradient, least_damping
@@ -20,6 +20,6 @@ from .runs import accuracy, boundary, events, explain, map, spectrum, trace
 from .sweep import sweep
 from .version import __version__
 
-__all__ = ["Eigentrail", "Family", "Imported", "Samples", "SceneError", "StateSpace", "TraceError", "accuracy", "boundary",
-           "events", "explain", "from_files", "from_openfast", "from_ross", "gradient", "least_damping", "map", "open",
-           "spectrum", "sweep", "trace", "__version__"]
+__all__ = ["Eigentrail", "Error", "Family", "Imported", "NotProjected", "NotResolved", "Samples", "SceneError", "StateSpace",
+           "TraceError", "accuracy", "boundary", "events", "explain", "from_files", "from_openfast", "from_ross", "gradient",
+           "least_damping", "map", "open", "spectrum", "sweep", "trace", "__version__"]

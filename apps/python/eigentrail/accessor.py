@@ -10,6 +10,7 @@ import pandas
 import xarray
 
 from . import boundary, files, ross, tables
+from .errors import SceneError
 from .figures import Figures
 from .selection import Selection
 
@@ -64,10 +65,10 @@ class Eigentrail(Figures):
         """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
         return tables.stable_ranges(self._of("loci"))
 
-    def save(self, path: Union[str, "os.PathLike[str]"], force: bool = False) -> None:
-        """Writes the file that the program would write for this result. An existing file of the same kind is replaced, others
-        only with `force`."""
-        files.save(self._data, path, force)
+    def save(self, path: Union[str, "os.PathLike[str]"], overwrite: bool = False) -> None:
+        """Writes the file that the program would write for this result. A file that exists is kept (FileExistsError), unless
+        `overwrite`."""
+        files.save(self._data, path, overwrite)
 
     @property
     def runs(self) -> Mapping[tuple[Any, ...], Any]:
@@ -91,7 +92,7 @@ class Eigentrail(Figures):
     def _of(self, kind: str) -> xarray.Dataset:
         found = self._data.attrs.get("format")
         if found != f"eigentrail-{kind}":
-            raise ValueError(f"only {kind} files have this; the Dataset is of the format {found!r}")
+            raise SceneError(f"only {kind} files have this; the Dataset is of the format {found!r}")
         return self._data
 
     def _wanted(self, at: Mapping[str, Any]) -> Any:
@@ -110,5 +111,5 @@ class Eigentrail(Figures):
         several = not isinstance(wanted, str)
         unknown = [name for name in (wanted if several else [wanted]) if name not in number]
         if unknown:
-            raise ValueError(f"mode {unknown[0]!r}: expected one of {', '.join(map(repr, number))}")
+            raise SceneError(f"mode {unknown[0]!r}: expected one of {', '.join(map(repr, number))}")
         return data.isel(mode=[number[name] for name in wanted] if several else number[wanted])

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray
 
+from .errors import SceneError
 from .interpolation import TwoPointTaylor
 
 
@@ -12,7 +13,7 @@ def curve(boundary: xarray.Dataset, number: int, points: int) -> xarray.Dataset:
     The places are equidistant if every step counts as long as any other."""
     steps = np.flatnonzero(boundary.step_curve.values == number)
     if not len(steps):
-        raise ValueError(f"curve {number}: the file has {boundary.sizes['curve']} curves, counted from 0")
+        raise SceneError(f"curve {number}: the file has {boundary.sizes['curve']} curves, counted from 0")
     place = np.linspace(0.0, len(steps), points)
     which = np.minimum(place.astype(int), len(steps) - 1)
     series = boundary.dense_output.values[steps[which]]

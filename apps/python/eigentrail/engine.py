@@ -1,6 +1,9 @@
 """The compiled engine, which computes, and reads files."""
 
-from typing import TYPE_CHECKING, Any, Optional
+import inspect
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, Optional, TypeVar
 
 _found: Any = None
 _why: Optional[ImportError] = None
@@ -19,13 +22,19 @@ def engine() -> Any:
     return _found
 
 
-class TraceError(RuntimeError):
-    """A computation that could not begin; the message says why."""
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-if TYPE_CHECKING or _found is None:
-    class SceneError(ValueError):
-        """Bad input: a scene, a family or an option that cannot be used. The message says where, what was expected, and
-        what to do."""
-else:
-    SceneError = _found.SceneError
+def suggesting(function: Function) -> Function:
+    """The function with a suggestion in the TypeError for a keyword that it does not have."""
+    known = list(inspect.signature(function).parameters)
+
+    @wraps(function)
+    def call(*arguments: Any, **keywords: Any) -> Any:
+        for name in keywords:
+            if name not in known and _found is not None:
+                raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}: {name} is no keyword; "
+                                + _found.suggestion(name, known[1:]))
+        return function(*arguments, **keywords)
+
+    return call  # type: ignore[return-value]

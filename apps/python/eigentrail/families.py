@@ -2,13 +2,15 @@
 
 import io
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Optional, Union
 
 import h5py
 import numpy as np
 
-from . import toml
+from . import files, matrices, toml
+from .engine import suggesting
+from .errors import SceneError
 
 Matrices = Any  # one matrix, a list of them by powers of the parameter, or a dict by powers and names
 Range = tuple[Any, Any]
@@ -19,7 +21,8 @@ class Family:
 
     Each of `M`, `C`, `K`, `E`, `A` is one matrix (numpy or scipy.sparse), a list of matrices for the powers 0, 1, ... of the
     parameter, or a dict by powers and names; `factors` gives what a name is multiplied with, an expression of `parameters`.
-    Sparse matrices stay sparse.
+    Sparse matrices stay sparse. The family has copies, with exactly the given numbers; SceneError for complex matrices, masked
+    entries, and numbers that double precision does not hold.
 
         Family(M=M, C=[C0, G], K=K, parameter="omega")             # C = C0 + omega G
         Family(M=M, K={0: K0, "bearing": Kb}, factors={"bearing": "k"}, parameters={"k": 1e6, "omega": 0}, parameter="omega")
@@ -41,24 +44,54 @@ class Family:
     array([1., 2.])
     """
 
+    @suggesting
     def __init__(self, function: Optional[Callable[[float], Mapping[str, Any]]] = None, *, M: Matrices = None,
                  C: Matrices = None, K: Matrices = None, E: Matrices = None, A: Matrices = None,
                  parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
                  factors: Optional[Mapping[str, Any]] = None, parameters: Optional[Mapping[str, Any]] = None,
                  title: str = "", function_tolerance: Optional[float] = None, max_calls: int = 1000,
                  breaks: Sequence[float] = ()):
-        given = {key: value for key, value in dict(M=M, C=C, K=K, E=E, A=A).items() if value is not None}
+        given = _given(dict(M=M, C=C, K=K, E=E, A=A))
         if (function is None) == (not given):
             raise TypeError("expected matrices M, C, K or E, A, or a function that returns them")
         if function is not None and not callable(function):
             raise TypeError(f"expected a function of the parameter, found {type(function).__name__}; "
                             "matrices have keywords: Family(M=..., K=...)")
         self.function = function
-        self.matrices = {key: _by_name(key, value) for key, value in given.items()}
+        self.matrices = {key: matrices.terms(key, value) for key, value in given.items()}
         self.parameter, self.unit, self.title = parameter, unit, title
         self.names = None if names is None else [str(name) for name in names]
+        _require_names(self.names, _labelled(self.matrices))
         self.factors, self.parameters = dict(factors or {}), dict(parameters or {})
         self.function_tolerance, self.max_calls, self.breaks = function_tolerance, max_calls, list(breaks)
+
+    def __repr__(self) -> str:
+        if self.function is not None:
+            return f"Family of the function {getattr(self.function, '__name__', self.function)}{_parameter_text(self)}"
+        size = next(matrix.shape[0] for _, matrix in _labelled(self.matrices))
+        terms = "; ".join(label + (" sparse" if matrices.is_sparse(matrix) else "") for label, matrix in _labelled(self.matrices))
+        return f"Family of matrices {size} x {size}: {terms}{_parameter_text(self)}"
+
+    def at(self, p: float, parameter: str) -> dict[str, Any]:
+        """The matrices that the function gives at p, dense. What it raises gets a note with the value."""
+        try:
+            returned = self.function(p)  # type: ignore[misc]
+        except Exception as error:
+            error.add_note(f"raised by the function of the family, at {parameter} = {p!r}")
+            raise
+        where = f"the function of the family, at {parameter} = {p!r}"
+        if not isinstance(returned, Mapping):
+            raise SceneError(f"{where}: expected a dict with matrices M, C, K or E, A; found {type(returned).__name__}")
+        unknown = [key for key in returned if key not in ("M", "C", "K", "E", "A")]
+        if unknown:
+            raise SceneError(f"{where}: expected a dict with matrices M, C, K or E, A; found the key {unknown[0]!r}")
+        try:
+            _require_equations(returned)
+            found = {key: matrices.dense(matrices.matrix(key, value)) for key, value in returned.items()}
+            _require_names(self.names, found.items())
+        except SceneError as error:
+            raise SceneError(f"{where}: {error}") from None
+        return found
 
     def scene(self, parameter: str, span: Optional[Range], file: str = "family.h5") -> str:
         """The scene of the family as text (TOML); its matrices are in `file`."""
@@ -80,7 +113,7 @@ class Family:
     def is_dense_polynomial(self) -> bool:
         """Whether the engine can take the matrices where they are: dense ones of powers only."""
         return self.function is None and not self.factors and not any(
-            _is_sparse(matrix) for terms in self.matrices.values() for matrix in terms.values())
+            matrices.is_sparse(matrix) for _, matrix in _labelled(self.matrices))
 
     def image(self) -> bytes:
         """The matrices as an HDF5 file, in the layout of [matrix_family]."""
@@ -91,11 +124,12 @@ class Family:
                     _write_matrix(file, f"{key}/{name}", matrix)
         return buffer.getvalue()
 
-    def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None) -> str:
-        """Writes `path` (.toml), the scene, and the matrices beside it (.h5), for the program. Returns the path."""
+    def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None, overwrite: bool = False) -> str:
+        """Writes `path` (.toml), the scene, and the matrices beside it (.h5), for the program. Returns the path. Files that
+        exist are kept (FileExistsError), unless `overwrite`."""
         if self.function is not None:
-            raise ValueError("a family that a function gives cannot be written; sample it: eigentrail.Samples")
-        return _save(self, path, span)
+            raise SceneError("a family that a function gives cannot be written; sample it: eigentrail.Samples")
+        return _save(self, path, span, overwrite)
 
 
 class Samples:
@@ -115,19 +149,26 @@ class Samples:
 
     function = None
 
+    @suggesting
     def __init__(self, p: Any, *, M: Any = None, C: Any = None, K: Any = None, E: Any = None, A: Any = None,
                  parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
                  units: Optional[Sequence[str]] = None, digits: Optional[int] = None, kinks: Sequence[float] = (),
                  title: str = ""):
-        self.p = np.atleast_1d(np.asarray(p, float))
-        given = {key: value for key, value in dict(M=M, C=C, K=K, E=E, A=A).items() if value is not None}
+        self.p = np.atleast_1d(matrices.exact("p", p))
+        given = _given(dict(M=M, C=C, K=K, E=E, A=A))
         if not given:
             raise TypeError("expected samples of matrices: A (and E), or K with M or C")
-        self.samples = {key: _samples(key, value, self.p.size) for key, value in given.items()}
+        self.samples = {key: matrices.samples(key, value, self.p.size) for key, value in given.items()}
         self.parameter, self.unit, self.title = parameter, unit, title
         self.names = None if names is None else [str(name) for name in names]
         self.units = None if units is None else [str(name) for name in units]
+        _require_names(self.names, ((key, samples[0]) for key, samples in self.samples.items()))
         self.digits, self.kinks = digits, list(kinks)
+
+    def __repr__(self) -> str:
+        size = next(iter(self.samples.values())).shape[-1]
+        return (f"{type(self).__name__} of {', '.join(self.samples)}, {size} x {size}, at {self.p.size} values from "
+                f"{self.p.min():g} to {self.p.max():g}{_parameter_text(self)}")
 
     def scene(self, parameter: str, span: Optional[Range], file: str = "family.h5") -> str:
         """The scene of the family as text (TOML); its samples are in `file`."""
@@ -156,9 +197,10 @@ class Samples:
                     file[name] = np.array(texts, dtype=h5py.string_dtype())
         return buffer.getvalue()
 
-    def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None) -> str:
-        """Writes `path` (.toml), the scene, and the samples beside it (.h5), for the program. Returns the path."""
-        return _save(self, path, span)
+    def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None, overwrite: bool = False) -> str:
+        """Writes `path` (.toml), the scene, and the samples beside it (.h5), for the program. Returns the path. Files that
+        exist are kept (FileExistsError), unless `overwrite`."""
+        return _save(self, path, span, overwrite)
 
 
 class StateSpace(Samples):
@@ -177,66 +219,61 @@ class StateSpace(Samples):
         super().__init__(p, A=A, E=E, **more)
 
 
-def _by_name(key: str, value: Matrices) -> dict[str, Any]:
-    if isinstance(value, Mapping):
-        return {str(name): _matrix(f"{key}[{name!r}]", item) for name, item in value.items()}
-    if _is_sparse(value) or np.ndim(value) == 2:
-        return {"0": _matrix(key, value)}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return {str(power): _matrix(f"{key}[{power}]", item) for power, item in enumerate(value)}
-    raise TypeError(f"{key}: expected a matrix, a list of matrices or a dict of matrices, found {type(value).__name__}")
+def _given(matrices: Mapping[str, Any]) -> dict[str, Any]:
+    """Matrices that were given, which must be those of one kind of equations."""
+    given = {key: value for key, value in matrices.items() if value is not None}
+    if given:
+        _require_equations(given)
+    return given
 
 
-def _matrix(label: str, value: Any) -> Any:
-    if _is_sparse(value):
-        return value.tocsr()
-    matrix = _real(label, value)
-    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
-        raise ValueError(f"{label}: expected a square matrix, found an array of shape {matrix.shape}")
-    return matrix
+def _require_equations(given: Collection[str]) -> None:
+    second, first = {"M", "C", "K"} & set(given), {"E", "A"} & set(given)
+    if second and first:
+        raise SceneError(f"expected M, C, K or E, A; found {', '.join(given)}")
+    if second and ("K" not in given or len(second) < 2):
+        raise SceneError(f"expected K with M, C or both; found {', '.join(given)}")
+    if first and "A" not in given:
+        raise SceneError("expected A, and E if it is not the identity; found E")
 
 
-def _samples(key: str, value: Any, count: int) -> Any:
-    array = _real(key, value)
-    if array.ndim == 2:
-        array = np.broadcast_to(array, (count, *array.shape))
-    if array.ndim != 3 or array.shape[0] != count or array.shape[1] != array.shape[2]:
-        raise ValueError(f"{key}: expected {count} square matrices, an array of shape ({count}, n, n); found the shape "
-                         f"{array.shape}")
-    return array
+def _require_names(names: Optional[Sequence[str]], labelled: Iterable[tuple[str, Any]]) -> None:
+    """SceneError unless all matrices have one size, with a name for each coordinate."""
+    label, first = "", None
+    for other, matrix in labelled:
+        if first is None:
+            label, first = other, matrix
+        matrices.require_size(other, matrix, label, first)
+    if names is not None and first is not None and len(names) != first.shape[-1]:
+        raise SceneError(f"names: expected {first.shape[-1]} of them, one per row of {label}; found {len(names)}")
 
 
-def _real(label: str, value: Any) -> Any:
-    if np.iscomplexobj(value):
-        raise ValueError(f"{label}: expected real numbers, found complex ones")
-    try:
-        return np.asarray(value, float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{label}: expected a matrix of numbers: {error}") from None
-
-
-def _is_sparse(value: Any) -> bool:
-    return hasattr(value, "tocsr")
+def _labelled(terms: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, Any]]:
+    for key, by_name in terms.items():
+        for name, matrix in by_name.items():
+            yield (key if list(by_name) == ["0"] else f"{key}[{name}]"), matrix
 
 
 def _write_matrix(file: Any, name: str, matrix: Any) -> None:
-    if not _is_sparse(matrix):
+    if not matrices.is_sparse(matrix):
         file[name] = matrix
         return
     for part in ("data", "indices", "indptr"):
         file[f"{name}/{part}"] = getattr(matrix, part)
 
 
-def _save(family: Any, path: Union[str, "os.PathLike[str]"], span: Optional[Range]) -> str:
+def _save(family: Any, path: Union[str, "os.PathLike[str]"], span: Optional[Range], overwrite: bool) -> str:
     scene = os.fspath(path)
     if not scene.endswith(".toml"):
-        raise ValueError(f"{scene}: expected the name of a scene, *.toml")
+        raise SceneError(f"{scene}: expected the name of a scene, *.toml")
     if family.parameter is None:
-        raise ValueError("expected the name of the parameter: Family(..., parameter=...)")
-    matrices = scene[:-len(".toml")] + ".h5"
-    text = family.scene(family.parameter, span, os.path.basename(matrices))
-    with open(matrices, "wb") as file:
-        file.write(family.image())
-    with open(scene, "w", encoding="utf-8") as file:
-        file.write(text)
+        raise SceneError("expected the name of the parameter: Family(..., parameter=...)")
+    beside = scene[:-len(".toml")] + ".h5"
+    files.write({beside: family.image(), scene: family.scene(family.parameter, span, os.path.basename(beside)).encode()},
+                overwrite)
     return scene
+
+
+def _parameter_text(family: Any) -> str:
+    unit = f" ({family.unit})" if family.unit else ""
+    return f", parameter {family.parameter}{unit}" if family.parameter else ""

@@ -10,6 +10,7 @@ import numpy as np
 import xarray
 
 from .engine import engine
+from .errors import SceneError
 
 SCHEMA = 1
 EXPECTED = "expected a file of eigentrail trace, boundary, map or accuracy"
@@ -38,6 +39,10 @@ def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
     files of other programs and for damaged ones.
     """
     path = os.fspath(path)
+    if path.endswith(".toml"):
+        raise SceneError(f"{path}: is a scene, no result; give it to eigentrail.trace, which returns one")
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise SceneError(f"{path}: is not a plain file; folders, pipes and devices are not read")
     with builtins.open(path, "rb") as file:
         return from_bytes(file.read(), path)
 
@@ -91,21 +96,27 @@ def part_like(like: xarray.Dataset, contents: Contents) -> xarray.Dataset:
                           {name: one for name, one in variables.items() if name in like.coords}, attributes)
 
 
-def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], force: bool = False) -> None:
-    """Writes the file that the Dataset was made from; the same bytes. Replaces files of eigentrail of the same kind, others
-    only with `force`. The file is replaced as a whole."""
+def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], overwrite: bool = False) -> None:
+    """Writes the file that the Dataset was made from; the same bytes. A file that exists is kept, unless `overwrite`."""
     image = data.encoding.get(IMAGE)
     if image is None or not from_bytes(image).identical(data):
-        raise ValueError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
+        raise SceneError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
                          "has returned, or write this one with to_netcdf")
-    path = os.fspath(path)
-    if os.path.exists(path) and not force and not engine().may_be_replaced(path, data.attrs["format"]):
-        raise FileExistsError(f"{path}: exists and is no file of the kind {data.attrs['format']}; give another name, or "
-                              "force=True")
-    replace(path, image)
+    write({os.fspath(path): image}, overwrite)
 
 
-def replace(path, image):
+def write(contents: Mapping[str, bytes], overwrite: bool) -> None:
+    """Writes files, each as a whole. If one of them exists, none is written and FileExistsError is raised, unless `overwrite`."""
+    for path in contents:
+        if os.path.lexists(path) and not overwrite:
+            raise FileExistsError(f"{path}: exists; give another name, or overwrite=True")
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise FileExistsError(f"{path}: is no regular file, and is not replaced")
+    for path, content in contents.items():
+        replace(path, content)
+
+
+def replace(path: str, image: bytes) -> None:
     """Writes bytes to a file, which is then either the complete new one or the old one."""
     if not os.path.isdir(os.path.dirname(path) or "."):
         raise FileNotFoundError(f"{path}: there is no such folder")
@@ -144,11 +155,11 @@ def _umask() -> int:
 def _checked_format(path: str, attributes: Mapping[str, Any]) -> str:
     kind = attributes.get("format")
     if not isinstance(kind, str):
-        raise ValueError(f"{path}: has no attribute 'format'; {EXPECTED}")
+        raise SceneError(f"{path}: has no attribute 'format'; {EXPECTED}")
     if kind not in COORDINATES:
-        raise ValueError(f"{path}: holds {kind!r}; {EXPECTED}")
+        raise SceneError(f"{path}: holds {kind!r}; {EXPECTED}")
     if not np.array_equal(attributes.get("schema_version"), SCHEMA):
-        raise ValueError(f"{path}: has schema {attributes.get('schema_version')}, this reader knows schema {SCHEMA}; "
+        raise SceneError(f"{path}: has schema {attributes.get('schema_version')}, this reader knows schema {SCHEMA}; "
                          "take the reader that came with the program that wrote it")
     return kind
 

@@ -1,14 +1,17 @@
 """What users give as a scene, and keywords of the commands, as the engine wants them."""
 
+import inspect
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 
 from . import toml
-from .engine import SceneError, engine
+from .engine import engine
+from .errors import SceneError
 from .families import Family, Samples
 from .imports import Imported
 
@@ -26,19 +29,21 @@ class Given(NamedTuple):
 
 
 class Attached(NamedTuple):
-    """Matrices in memory, by the names of the files by which the scene calls them."""
+    """Matrices in memory, by the names of the files by which the scene calls them. Errors in a text that was generated name no
+    lines of it."""
 
     files: dict[str, bytes] = {}
     matrices: dict[str, Any] = {}
+    generated: bool = True
 
-    def scene(self, text: str, path: str) -> Any:
-        return engine().parse_scene(text, path, self.files, self.matrices)
+    def scene(self, text: str, name: str) -> Any:
+        return engine().parse_scene(text, name, self.files, self.matrices, self.generated)
 
 
-def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] = None, functions: bool = False,
-         events: Optional[Mapping[str, Any]] = None) -> Given:
+def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any], tolerance: Optional[float] = None,
+         functions: bool = False, events: Optional[Mapping[str, Any]] = None) -> Given:
     """`values`: per parameter a number, a text such as "300 rpm" or an expression, or a pair: a range. `functions`: whether
-    a family may be given by a function."""
+    a family may be given by a function. `command`: the function that was called with `values`, among other keywords."""
     if not functions and getattr(source, "function", None) is not None:
         raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
                          "for one range; give its matrices as a Family of powers and names, or as Samples")
@@ -51,16 +56,17 @@ def give(source: Source, values: Mapping[str, Any], tolerance: Optional[float] =
     elif isinstance(source, (Family, Samples)):
         traced = source.parameter or _only(ranges)
         attached = _attached(source)
-        scene = attached.scene(source.scene(traced, ranges.get(traced)), "family.toml")
-        if source.function is not None:
+        scene = attached.scene(source.scene(traced, ranges.get(traced)), type(source).__name__)
+        if isinstance(source, Family) and source.function is not None:
             function = engine().FunctionSource(
-                source.function, _function_tolerance(source, tolerance), source.max_calls, source.breaks,
-                source.names or [])
+                partial(source.at, parameter=traced), _function_tolerance(source, tolerance), source.max_calls,
+                source.breaks, source.names or [])
     else:
-        scene = _read(source)
+        scene, attached = _read(source)
+    _require_known(command, values, [name for name, _, _ in scene.parameters])
     if events:
         scene = _with_events(scene, events, attached)
-    scene, warnings = scene.with_settings(settings)
+    scene, warnings = scene.with_settings(settings, "")
     return Given(scene, function, ranges, warnings, attached)
 
 
@@ -82,16 +88,27 @@ def number(name: str, value: Any) -> float:
     return float(value)
 
 
-def _read(source: Any) -> Any:
+def _require_known(command: Callable[..., Any], names: Iterable[str], parameters: Sequence[str]) -> None:
+    """SceneError for a keyword that is no parameter of the scene, with a suggestion."""
+    keywords = [name for name, one in inspect.signature(command).parameters.items() if one.kind is one.KEYWORD_ONLY]
+    for name in names:
+        if name not in parameters:
+            raise SceneError(f"{name}: is no parameter of the scene, and no keyword of {command.__name__}; "
+                             + engine().suggestion(name, [*parameters, *keywords]))
+
+
+def _read(source: Any) -> tuple[Any, Attached]:
+    """The scene of a dict, a text or a file."""
     if isinstance(source, Mapping):
-        return engine().parse_scene(toml.dumps(source), "scene.toml")
+        return Attached().scene(toml.dumps(source), "scene"), Attached()
     if not isinstance(source, (str, os.PathLike)):
         raise TypeError("expected a scene: a path, a text, a dict, a Family, Samples, a StateSpace, or what an importer returns; found "
                         + type(source).__name__)
     text = os.fspath(source)
+    as_given = Attached(generated=False)
     if isinstance(source, str) and ("\n" in text or "=" in text):
-        return engine().parse_scene(text, "scene.toml")
-    return engine().read_scene(text)
+        return as_given.scene(text, "scene"), as_given
+    return engine().read_scene(text), as_given
 
 
 def _attached(family: Any) -> Attached:
@@ -106,7 +123,7 @@ def _with_events(scene: Any, events: Mapping[str, Any], attached: Attached) -> A
     """The scene with other entries in [events]."""
     tables = tomllib.loads(scene.text)
     tables["events"] = {**tables.get("events", {}), **events}
-    return attached.scene(toml.dumps(tables), scene.path)
+    return attached._replace(generated=True).scene(toml.dumps(tables), scene.path)
 
 
 def _only(ranges: Mapping[str, Any]) -> str:

@@ -6,7 +6,8 @@ import numpy as np
 import pandas
 import xarray
 
-from .engine import SceneError, engine
+from .engine import engine
+from .errors import SceneError
 from .files import ATTACHED
 from .given import Attached, option_text
 

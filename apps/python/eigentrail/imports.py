@@ -7,7 +7,9 @@ import warnings
 from collections.abc import Sequence
 from typing import Any, Union
 
-from .engine import SceneError, engine
+from .engine import engine
+from .errors import SceneError
+from .files import write
 
 Files = Union[str, "os.PathLike[str]", Sequence[Union[str, "os.PathLike[str]"]]]
 
@@ -28,16 +30,15 @@ class Imported:
         return "\n".join([f"Imported: {self.title}", *("  " + line for line in self.understood)])
 
     def scene(self) -> Any:
-        return engine().parse_scene(self.text, "model.toml", {"model.h5": self.image})
+        return engine().parse_scene(self.text, "Imported", {"model.h5": self.image}, generated=True)
 
-    def save(self, folder: Union[str, "os.PathLike[str]"], name: str = "model") -> str:
-        """Writes `name`.toml and `name`.h5 to the folder; returns the path of the scene."""
+    def save(self, folder: Union[str, "os.PathLike[str]"], name: str = "model", overwrite: bool = False) -> str:
+        """Writes `name`.toml and `name`.h5 to the folder; returns the path of the scene. Files that exist are kept
+        (FileExistsError), unless `overwrite`."""
         os.makedirs(folder, exist_ok=True)
         scene = os.path.join(folder, f"{name}.toml")
-        with open(os.path.join(folder, f"{name}.h5"), "wb") as file:
-            file.write(self.image)
-        with open(scene, "w", encoding="utf-8") as text:
-            text.write(self.text.replace('"model.h5"', f'"{name}.h5"'))
+        write({os.path.join(folder, f"{name}.h5"): self.image,
+               scene: self.text.replace('"model.h5"', f'"{name}.h5"').encode()}, overwrite)
         return scene
 
 
@@ -57,10 +58,10 @@ def from_files(format: str, files: Files, **options: Any) -> Imported:
     paths = _paths(files)
     known = engine().import_formats()
     if format not in known:
-        raise SceneError(f"format: expected one of {', '.join(known)}; found {format!r}")
+        raise SceneError(f"format: {format!r} is not read; {engine().suggestion(format, list(known))}")
     unknown = [name for name in options if name.replace("_", "-") not in known[format] and name not in known[format]]
     if unknown:
-        raise SceneError(f"{unknown[0]}: is no option of {format}; known: {', '.join(known[format]) or 'none'}")
+        raise SceneError(f"{unknown[0]}: is no option of {format}; {engine().suggestion(unknown[0], list(known[format]))}")
     texts = {(name if name in known[format] else name.replace("_", "-")):
              ",".join(str(item) for item in value) if isinstance(value, (list, tuple)) else str(value)
              for name, value in options.items()}

@@ -6,6 +6,7 @@ from typing import Any, Optional, Union
 import numpy as np
 import xarray
 
+from .errors import SceneError
 from .families import Family, Samples
 
 FREEDOMS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", "theta")}
@@ -24,7 +25,7 @@ def from_ross(rotor: Any, speeds: Any = None, *, probes: Sequence[Any] = (), tit
     eigenvalue, and a range must lie within the tables. ROSS takes the speed as the frequency of the tables, and so does
     this. Coordinates have the names of nodes ("node 3 x"), those of discs, bearings and `probes` (ross.Probe) their tags
     ("disk 0 x").
-    Raises ValueError where the state matrix differs from rotor.A(speed).
+    Raises SceneError where the state matrix differs from rotor.A(speed).
     """
     names = _names(rotor, probes)
     tables = [np.asarray(table, float) for table in _tables(rotor)]
@@ -57,7 +58,7 @@ def whirl(loci: xarray.Dataset) -> xarray.DataArray:
     coordinates = [str(name) for name in loci.coordinate.values]
     nodes = [name[:-2] for name in coordinates if name.endswith(" x") and name[:-2] + " y" in coordinates]
     if not nodes:
-        raise ValueError("expected coordinates with the names 'NODE x' and 'NODE y'")
+        raise SceneError("expected coordinates with the names 'NODE x' and 'NODE y'")
     x = loci.mode_shape.values[..., [coordinates.index(f"{node} x") for node in nodes]]
     y = loci.mode_shape.values[..., [coordinates.index(f"{node} y") for node in nodes]]
     # x(t) + j y(t) = a e^{jwt} + conj(b) e^{-jwt} of x = X e^{jwt}, y = Y e^{jwt}: a = X + jY runs forward, b = X - jY back.
@@ -92,7 +93,7 @@ def _mass(rotor: Any, speed: float) -> Any:
 def _names(rotor: Any, probes: Sequence[Any]) -> list[str]:
     letters = FREEDOMS.get(int(rotor.number_dof))
     if letters is None:
-        raise ValueError(f"rotor.number_dof: expected 4 or 6 freedoms per node, found {rotor.number_dof}")
+        raise SceneError(f"rotor.number_dof: expected 4 or 6 freedoms per node, found {rotor.number_dof}")
     n_nodes = int(rotor.ndof) // len(letters)
     labels = [f"node {node}" for node in range(n_nodes)]
     taken: set[str] = set()
@@ -134,7 +135,7 @@ def _compare(rotor: Any, speed: float, C: Any, K: Any) -> None:
     for part, name in ((slice(0, n), "stiffness"), (slice(n, 2 * n), "damping")):
         difference = np.abs(theirs[:, part] - ours[:, part]).max() / max(np.abs(theirs[:, part]).max(), 1e-300)
         if not difference <= AGREE:
-            raise ValueError(f"the {name} at {speed:g} rad/s differs from that of rotor.A by {difference:.1e}: this version of "
+            raise SceneError(f"the {name} at {speed:g} rad/s differs from that of rotor.A by {difference:.1e}: this version of "
                              "ROSS builds its state matrix in another way; give the matrices as a Family")
 
 

@@ -10,7 +10,8 @@ import pandas
 import xarray
 
 from . import files
-from .engine import SceneError, TraceError, engine
+from .engine import engine
+from .errors import SceneError, TraceError
 from .given import Attached, Given, Source, give, number, option_text
 from .progress import Bar, Progress
 
@@ -74,7 +75,7 @@ def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any =
                events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
                **parameters: Any) -> Run:
     """The same without reading the file."""
-    given = give(scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
+    given = give(trace, scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
     chosen = _trace_options(given, tolerance=tolerance, modes=modes, certify=certify, **(options or {}))
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().trace(given.scene, chosen, given.function, threads, show)
@@ -107,7 +108,7 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     >>> curves.sizes["curve"], curves.curve_kind.values[0]
     (1, 'flutter')
     """
-    given = give(scene, {**(settings or {}), **parameters}, tolerance)
+    given = give(boundary, scene, {**(settings or {}), **parameters}, tolerance)
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     from_, to = (number(first, end) for end in given.ranges[first]) if first in given.ranges else (None, None)
@@ -134,7 +135,7 @@ def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Opt
     >>> stability.unstable.dims, int(stability.unstable.sel(p=0, drag=0.5))
     (('drag', 'p'), 0)
     """
-    given = give(scene, {**(settings or {}), **parameters}, tolerance)
+    given = give(map, scene, {**(settings or {}), **parameters}, tolerance)
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     rows, columns = (grid, grid) if isinstance(grid, int) else grid
@@ -160,7 +161,7 @@ def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, ord
     >>> bool(study.error.sel(run=0) < 1e-6)
     True
     """
-    given = give(scene, {**(settings or {}), **parameters})
+    given = give(accuracy, scene, {**(settings or {}), **parameters})
     wanted = [10.0 ** -k for k in range(2, 13)] if tolerances is None else [float(t) for t in tolerances]
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().accuracy(given.scene, _trace_options(given), wanted, list(orders), list(grids), samples, repeat,
@@ -186,14 +187,17 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     0  0.25     1            1.0317
     1  0.25     2            1.3894
     """
-    given = give(scene, {**(settings or {}), **parameters})
+    given = give(spectrum, scene, {**(settings or {}), **parameters})
     chosen = _trace_options(given, modes=modes, **(options or {}))
     try:
         values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
     except ValueError:
         raise SceneError(f"at: expected values of the traced parameter, in its unit; found {at!r}") from None
     found = engine().spectrum(given.scene, chosen, values)
-    _tell(given.warnings + [f"{value:g}: {fault}" for value, fault in found["faults"]])
+    faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
+    if faults and not found["rows"]:
+        raise TraceError(f"{given.scene.path}: {'; '.join(faults)}")
+    _tell(given.warnings + faults)
     table = pandas.DataFrame([{key: value for key, value in row.items() if key != "mode_shape"} for row in found["rows"]])
     if table.empty:
         return table
@@ -219,7 +223,7 @@ def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapp
     >>> print(et.explain(scene).splitlines()[0].strip())
     2 freedoms: 2 coordinates, no constraints.
     """
-    given = give(scene, {**(settings or {}), **parameters})
+    given = give(explain, scene, {**(settings or {}), **parameters})
     text = engine().explain(given.scene, _trace_options(given, **(options or {})), sensitivity)
     _tell(given.warnings)
     return Explanation(text)

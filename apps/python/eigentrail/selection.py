@@ -4,6 +4,7 @@ import numpy as np
 import xarray
 
 from .dense_output import DenseOutput
+from .errors import SceneError
 
 # Bounds of the errors of eigenvalues that come from the data, per step and mode; only for sampled families.
 DATA_ERRORS = ("interpolation_error", "digits_error")
@@ -16,7 +17,7 @@ class Selection:
         self._loci = loci
         self._parameter = loci[loci.attrs["parameter"]]
         if not loci.sizes["step"]:
-            raise ValueError("the trace has no steps: there is nothing to evaluate between points")
+            raise SceneError("the trace has no steps: there is nothing to evaluate between points")
         self._dense_output = DenseOutput(loci)
 
     def at(self, wanted):
@@ -44,9 +45,9 @@ class Selection:
         """The name of the dimension (None for a number) and the values (n)."""
         values = np.asarray(wanted, float)
         if values.ndim > 1:
-            raise ValueError(f"{self._parameter.name} = an array of shape {values.shape}: expected a number or a list")
+            raise SceneError(f"{self._parameter.name} = an array of shape {values.shape}: expected a number or a list")
         if not np.all(np.isfinite(values)):
-            raise ValueError(f"{self._parameter.name}: expected finite numbers, found NaN or infinity")
+            raise SceneError(f"{self._parameter.name}: expected finite numbers, found NaN or infinity")
         of_its_own = isinstance(wanted, xarray.DataArray) and wanted.dims
         dimension = None if values.ndim == 0 else wanted.dims[0] if of_its_own else self._parameter.name
         return dimension, np.atleast_1d(values)
@@ -56,7 +57,7 @@ class Selection:
         if len(missing):
             name, path = self._parameter.name, self._parameter.values
             unit = self._parameter.attrs["units"]
-            raise ValueError(f"{name} = {values[missing[0]]:.15g} lies outside the traced range "
+            raise SceneError(f"{name} = {values[missing[0]]:.15g} lies outside the traced range "
                              f"{path.min():.15g} ... {path.max():.15g}{'' if unit == '1' else ' ' + unit}")
 
     def _dataset(self, s, certified, errors, dimension, values):

@@ -10,7 +10,8 @@ from typing import Any, Optional
 import numpy as np
 import xarray
 
-from .engine import SceneError, TraceError, engine
+from .engine import engine
+from .errors import SceneError, TraceError
 from .given import Source
 from .progress import Bar, Progress
 from .files import FOR_SELECTION, part, part_like, read

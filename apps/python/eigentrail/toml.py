@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from .matrices import exact, is_sparse
+
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
@@ -45,16 +47,26 @@ def value_text(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, (int, np.integer)):
         return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        number = float(value)
+    if isinstance(value, (float, complex, np.floating, np.complexfloating)):
+        number = float(exact("number", value))
         return repr(number) if math.isfinite(number) else {math.inf: "inf", -math.inf: "-inf"}.get(number, "nan")
-    if isinstance(value, np.ndarray):
-        return value_text(value.tolist())
+    if hasattr(value, "__array__") or is_sparse(value):
+        return value_text(_listed(value))
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_key(key)} = {value_text(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(value_text(item) for item in value) + "]"
     raise TypeError(f"a scene holds numbers, texts, lists and dictionaries, not {type(value).__name__}")
+
+
+def _listed(array: Any) -> Any:
+    """The entries of an array as lists: numbers with exactly their values, or texts."""
+    if not isinstance(array, np.ndarray):
+        array = array.toarray() if is_sparse(array) else np.asarray(array)
+    if array.dtype.kind not in "USO":
+        doubles = exact("array", array)
+        array = array if array.dtype.kind in "biu" else doubles
+    return array.tolist()
 
 
 def _table(header: str, table: Mapping[str, Any]) -> str:

@@ -2,6 +2,7 @@
 // the program writes.
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <functional>
@@ -17,6 +18,10 @@ namespace eigentrail::python {
 /// Options as for the command line: keys and texts.
 using Options = std::vector<std::pair<std::string, std::string>>;
 
+/// A matrix as the package hands it over: doubles in C order. Others are converted in Python, where it is
+/// checked that no number changes.
+using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
+
 /// What a computation leaves.
 struct Outcome {
   pybind11::bytes file;              ///< HDF5; empty: nothing was computed
@@ -27,7 +32,7 @@ struct Outcome {
 
 /// A function p -> matrices that Python gives instead of the tables of the scene.
 struct FunctionSource {
-  pybind11::function call;  ///< p -> dict of M, C, K or E, A
+  pybind11::function call;  ///< p -> dict of M, C, K or E, A, which are Doubles
   double tolerance = 0.0;   ///< of the entries
   int max_calls = 0;
   std::vector<double> breaks;

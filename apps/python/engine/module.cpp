@@ -9,12 +9,45 @@
 
 namespace py = pybind11;
 
+namespace {
+
+/// Options of the program are keywords here: --damping-ratio is damping_ratio.
+std::string in_words_of_python(std::string message) {
+  const auto is_letter = [&](std::size_t at) {
+    return at < message.size() && message[at] >= 'a' && message[at] <= 'z';
+  };
+  for (std::size_t at = message.find("--"); at != std::string::npos; at = message.find("--", at + 1)) {
+    if (!is_letter(at + 2)) continue;
+    message.erase(at, 2);
+    for (; is_letter(at) || (message[at] == '-' && is_letter(at + 1)); ++at) {
+      if (message[at] == '-') message[at] = '_';
+    }
+  }
+  return message;
+}
+
+/// Errors of a type of C++ become errors of a class of the package.
+template <class CppError>
+void raise_as(const char* name) {
+  static PyObject* const raised =
+      py::object(py::module_::import("eigentrail.errors").attr(name)).release().ptr();
+  py::register_local_exception_translator([](std::exception_ptr error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const CppError& found) {
+      PyErr_SetString(raised, in_words_of_python(found.what()).c_str());
+    }
+  });
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_engine, module) {
   module.doc() = "The compiled part of eigentrail.";
   module.attr("version") = eigentrail::version();
-  py::register_exception<eigentrail::InputError>(module, "SceneError", PyExc_ValueError);
-  py::register_exception<eigentrail::NotResolved>(module, "NotResolved", PyExc_RuntimeError);
-  py::register_exception<eigentrail::NotProjected>(module, "NotProjected", PyExc_RuntimeError);
+  raise_as<eigentrail::InputError>("SceneError");
+  raise_as<eigentrail::NotResolved>("NotResolved");
+  raise_as<eigentrail::NotProjected>("NotProjected");
   eigentrail::python::add_scenes(module);
   eigentrail::python::add_runs(module);
   eigentrail::python::add_points(module);

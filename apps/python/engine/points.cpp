@@ -68,7 +68,7 @@ py::dict sensitivities(const Scene& scene, const Options& options, double value,
     for (const int parameter : found.parameters)
       names.push_back(parameters[static_cast<std::size_t>(parameter)].name);
   });
-  if (!found.fault.empty()) throw py::value_error(scene.path + ": " + found.fault);
+  if (!found.fault.empty()) throw InputError(scene.path + ": " + found.fault);
   return py::dict("eigenvalue"_a = found.s, "parameter"_a = names, "derivative"_a = found.derivatives);
 }
 

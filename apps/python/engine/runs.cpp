@@ -1,5 +1,4 @@
 #include <pybind11/eigen.h>
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -30,33 +29,14 @@ std::vector<std::string> remarks_on(const Scene& scene, const Model& model) {
   return remarks;
 }
 
-/// A dictionary of arrays, as the user's function returns it. Entries are copied once.
-MatricesAt matrices_of(const py::object& returned, double p) {
-  const auto expected = [&](const std::string& found) {
-    return py::type_error("the function of p, at p = " + std::to_string(p) +
-                          ": expected a dict with matrices M, C, K or E, A; found " + found);
-  };
-  if (!py::isinstance<py::dict>(returned)) throw expected(std::string(py::str(py::type::of(returned))));
+/// The matrices of a dictionary. Entries are copied once.
+MatricesAt matrices_of(const std::map<std::string, Doubles>& returned) {
   MatricesAt result;
   const std::map<std::string, Matrix*> known{
       {"M", &result.M}, {"C", &result.C}, {"K", &result.K}, {"E", &result.E}, {"A", &result.A}};
-  for (const auto& [key, value] : returned.cast<py::dict>()) {
-    const auto matrix = known.find(py::str(key));
-    if (matrix == known.end()) throw expected("the key " + std::string(py::repr(key)));
-    using Entries = py::array_t<double, py::array::forcecast>;
-    const py::object dense =
-        py::hasattr(value, "toarray") ? value.attr("toarray")() : py::reinterpret_borrow<py::object>(value);
-    const Entries entries = Entries::ensure(dense);
-    if (!entries || entries.ndim() != 2) {
-      PyErr_Clear();
-      throw expected(std::string(py::str(key)) + " that is no matrix of real numbers");
-    }
-    using Strides = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
-    constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
-    *matrix->second =
-        Eigen::Map<const Matrix, 0, Strides>(entries.data(), entries.shape(0), entries.shape(1),
-                                             Strides(entries.strides(1) / size, entries.strides(0) / size));
-  }
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  for (const auto& [key, entries] : returned)
+    *known.at(key) = Eigen::Map<const Rows>(entries.data(), entries.shape(0), entries.shape(1));
   return result;
 }
 
@@ -82,7 +62,7 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
         const auto call = [&, calls = 0](double p) mutable {
           watch.require(0.0, calls++);
           const py::gil_scoped_acquire acquired;
-          return matrices_of(source->call(p), p);
+          return matrices_of(source->call(p).cast<std::map<std::string, Doubles>>());
         };
         return std::make_unique<FunctionFamily>(call,
                                                 options_of(*source, parameters.at(trace.parameter), trace));

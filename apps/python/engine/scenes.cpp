@@ -1,4 +1,3 @@
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "eigentrail/scene/settings.hpp"
@@ -10,10 +9,8 @@ namespace py = pybind11;
 namespace eigentrail::python {
 namespace {
 
-/// The entries of a matrix of doubles, without a copy.
-MatrixInMemory view_of(const py::array_t<double, py::array::forcecast>& entries) {
-  if (entries.ndim() != 2) throw py::value_error("expected a matrix");
-  constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+/// The entries of a matrix, without a copy.
+MatrixInMemory view_of(const Doubles& entries) {
   const auto release = [](py::object* array) {
     const py::gil_scoped_acquire acquired;
     delete array;
@@ -21,16 +18,16 @@ MatrixInMemory view_of(const py::array_t<double, py::array::forcecast>& entries)
   return {entries.data(),
           entries.shape(0),
           entries.shape(1),
-          entries.strides(0) / size,
-          entries.strides(1) / size,
+          entries.shape(1),
+          1,
           std::shared_ptr<py::object>(new py::object(entries), release)};
 }
 
-using Arrays = std::map<std::string, std::map<std::string, py::array_t<double, py::array::forcecast>>>;
+using Arrays = std::map<std::string, std::map<std::string, Doubles>>;
 
 Scene parse(std::string text, const std::string& path, const std::map<std::string, py::bytes>& files,
-            const std::map<std::string, Arrays>& matrices) {
-  Scene scene = parse_scene(std::move(text), path);
+            const std::map<std::string, Arrays>& matrices, bool generated) {
+  Scene scene = parse_scene(std::move(text), path, generated);
   for (const auto& [name, bytes] : files)
     scene.files[name] = std::make_shared<const std::string>(static_cast<std::string>(bytes));
   for (const auto& [file, groups] : matrices) {
@@ -64,15 +61,18 @@ void add_scenes(py::module_& module) {
       .def_property_readonly("traced", &traced_parameter)
       .def(
           "with_settings",
-          [](const Scene& scene, const std::vector<std::string>& settings) {
-            ChangedScene changed = with_settings(scene, settings);
+          [](const Scene& scene, const std::vector<std::string>& settings, const std::string& option) {
+            ChangedScene changed = with_settings(scene, settings, option);
             return std::pair(std::move(changed.scene), std::move(changed.warnings));
           },
-          py::arg("settings"));
+          py::arg("settings"), py::arg("option"));
   module.def("read_scene", &read_scene, py::arg("path"));
   module.def("parse_scene", &parse, py::arg("text"), py::arg("path"),
              py::arg("files") = std::map<std::string, py::bytes>{},
-             py::arg("matrices") = std::map<std::string, Arrays>{});
+             py::arg("matrices") = std::map<std::string, Arrays>{}, py::arg("generated") = false);
+  module.def("suggestion", [](const std::string& name, const std::vector<std::string>& known) {
+    return suggestion(name, known);
+  });
 }
 
 }  // namespace eigentrail::python

@@ -20,7 +20,8 @@ enum class TraceStatus {
   step_too_small,   ///< ended within the range; the message gives the reason
   no_branch,        ///< the path requested at a branch point was not found
   too_many_nodes,
-  stopped  ///< the observer requested it
+  outside_band,  ///< no mode came into the band of frequencies that was asked for
+  stopped        ///< the observer requested it
 };
 
 /// Numbers of rejected steps, by reason.

@@ -29,6 +29,7 @@ struct Scene {
   std::string path;  ///< as the user gave it; used in messages and to find files relative to the scene
   std::string text;  ///< the full text, stored in result files
   std::string title;
+  bool generated = false;  ///< the text is not what the user wrote: messages name no lines of it
   Table root;
   Parameters parameters;
   /// Files of matrices (HDF5) in memory, by the names by which the scene calls them: their bytes. They stand
@@ -43,10 +44,12 @@ struct Scene {
 /// valid scene.
 Scene read_scene(const std::string& path);
 
-/// The same from memory; `path` names the scene in messages.
-Scene parse_scene(std::string text, const std::string& path);
+/// The same from memory; `path` names the scene in messages, which name no lines of a text that was
+/// `generated`.
+Scene parse_scene(std::string text, const std::string& path, bool generated = false);
 
-/// An error at a position in the scene: "path:line:column: message".
+/// An error at a position in the scene: "path:line:column: message", or "path: message"
+/// where the text was generated.
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message);
 
 /// The unit in which a key wants its numbers; empty: any. "" is a number without unit.

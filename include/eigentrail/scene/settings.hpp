@@ -1,7 +1,8 @@
-// Other values for parameters of a scene, from the command line: --set drag=20 --set "omega=300 rpm".
+// Other values for parameters of a scene, as on the command line: --set drag=20 --set "omega=300 rpm".
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "eigentrail/scene/scene.hpp"
@@ -15,9 +16,10 @@ struct ChangedScene {
 
 /// The scene with values replaced in its text, so that files of results hold the scene that was computed. A
 /// setting is "NAME=VALUE"; the value is a number in the unit that the scene declares, a number with its unit
-/// ("300 rpm"), or an expression of other parameters. It is checked as the scene itself is. A name that the
-/// scene does not declare is a warning, and an error if it looks like a misprint of one that it declares.
-/// Throws InputError.
-ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings);
+/// ("300 rpm"), or an expression of other parameters. It is checked as the scene itself is. A value for the
+/// traced parameter of a family, which it need not declare, is a warning. Messages begin with `option` and
+/// the name. Throws InputError, also for names that the scene does not have.
+ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings,
+                           std::string_view option = "--set ");
 
 }  // namespace eigentrail

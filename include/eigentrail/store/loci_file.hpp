@@ -76,6 +76,9 @@ struct LociFile : RecordedPath {
   double certified_share(std::size_t mode) const;
 };
 
+/// Throws InputError unless `path` is a regular file that may be a result: no scene.
+void require_result_file(const std::string& path);
+
 /// Reads a loci file. Throws InputError if the file is missing, is no loci file, has another schema version
 /// or is inconsistent.
 LociFile read_loci(const std::string& path);

@@ -7,6 +7,7 @@
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/model/projection.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
@@ -131,8 +132,13 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   const int wanted = choose_modes(choice, spectrum.modes);
   const std::vector<double> rounding = refine(point.pencil, wanted, spectrum);
   spectrum.modes.resize(static_cast<std::size_t>(wanted));
-  if (spectrum.modes.size() == 1 && !choice.wants(spectrum.modes.front().s))
-    result.note = "none of " + in_words(choice) + "; the mode that misses this least is shown";
+  const bool none = spectrum.modes.size() == 1 && !choice.wants(spectrum.modes.front().s);
+  if (none && choice.band) {
+    result.fault = "none of " + in_words(choice) + "; the nearest is " +
+                   exact_text(spectrum.modes.front().s.imag()) + " rad/s";
+    return result;
+  }
+  if (none) result.note = "none of " + in_words(choice) + "; the mode that misses this least is shown";
   const ModelDescription& description = setup.model->description();
   const bool unconstrained = point.basis.is_identity || point.basis.parts;
   const Linearization& physical = point.equilibrium.linearization;

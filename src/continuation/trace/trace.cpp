@@ -9,7 +9,7 @@ namespace eigentrail {
 bool has_started(TraceStatus status) {
   return status == TraceStatus::completed || status == TraceStatus::no_branch ||
          status == TraceStatus::step_too_small || status == TraceStatus::too_many_nodes ||
-         status == TraceStatus::stopped;
+         status == TraceStatus::stopped || status == TraceStatus::outside_band;
 }
 
 namespace {

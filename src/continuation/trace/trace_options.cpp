@@ -210,7 +210,7 @@ std::vector<OptionFault> find_faults(const TraceOptions& options, const Paramete
   const std::string& name = options.parameter;
   const auto index = parameters.index(name);
   if (name.empty()) {
-    require(false, "parameter", "is missing; name the parameter to trace, or give --parameter");
+    require(false, "parameter", "is missing; name the parameter to trace");
   } else if (!index) {
     require(false, "parameter",
             "no parameter is called '" + name + "'; " + suggestion(name, parameters.names()));
@@ -285,7 +285,7 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
   for (const char* key : {"from", "to"}) {
     if (table.has(key) || (!range && key == std::string("to"))) continue;
     const bool samples = scene.root.find("sampled_family") != nullptr;
-    table.fail(key, "is missing; expected a number, here or as --" + std::string(key) +
+    table.fail(key, std::string("is missing; expected a number, here or as an option") +
                         (samples ? "; of a single sample, 'eigentrail spectrum' shows the eigenvalues" : ""));
   }
   table.finish();

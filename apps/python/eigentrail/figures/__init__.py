@@ -9,6 +9,7 @@ from typing import Any, Optional, Sequence, Union
 
 import xarray
 
+from ..errors import SceneError
 from .picture import Picture
 
 Size = Optional[tuple[float, float]]
@@ -18,7 +19,7 @@ BACKENDS = {"plotly": "with_plotly", "matplotlib": "with_matplotlib"}
 def drawn(picture: Picture, backend: str) -> Any:
     """The figure of a library."""
     if backend not in BACKENDS:
-        raise ValueError(f"backend={backend!r}: expected one of {', '.join(map(repr, BACKENDS))}")
+        raise SceneError(f"backend={backend!r}: expected one of {', '.join(map(repr, BACKENDS))}")
     return import_module(f".{BACKENDS[backend]}", __name__).draw(picture)
 
 

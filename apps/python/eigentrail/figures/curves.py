@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..dense_output import DenseOutput
+from ..errors import SceneError
 from ..interpolation import TwoPointTaylor
 from .style import SAME_AS_ZERO
 
@@ -25,7 +26,7 @@ class Curves:
 
     def __init__(self, loci):
         if not loci.sizes["step"]:
-            raise ValueError("the trace has no steps: there are no curves to draw")
+            raise SceneError("the trace has no steps: there are no curves to draw")
         self._loci = loci
         self._dense = DenseOutput(loci)
         self._parameter = TwoPointTaylor(loci.step_length.values, loci.step_parameter.values)

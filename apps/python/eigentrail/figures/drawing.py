@@ -12,7 +12,8 @@ from collections import namedtuple
 import numpy as np
 
 from .. import files
-from ..engine import SceneError, engine
+from ..engine import engine
+from ..errors import SceneError
 from .style import ANGULAR
 
 Excitation = namedtuple("Excitation", "parameter frequency harmonics")  # values of the parameter, rad/s, those of the scene

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import SceneError
 from .curves import DASHED, DOTTED, SOLID, Curves, parts, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
@@ -33,7 +34,7 @@ class LociFigure:
         self.parameter_unit = loci[self.parameter].attrs.get("units", "1")
         self.unit = unit or (self.parameter_unit if self.parameter_unit in ANGULAR else "Hz")
         if self.unit not in ANGULAR:
-            raise ValueError(f"unit={unit!r}: expected a unit of frequency: {', '.join(ANGULAR)}")
+            raise SceneError(f"unit={unit!r}: expected a unit of frequency: {', '.join(ANGULAR)}")
         self.factor = ANGULAR[self.unit]
         self.curves = Curves(loci)
         self.modes = [mode for mode in range(loci.sizes["mode"]) if np.isfinite(self.curves.s[:, mode]).any()]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..boundary import curve as smooth_curve
+from ..errors import SceneError
 from .curves import parts
 from .labels import Room
 from .loci import BOTTOM, LEFT, LEGEND_ROW, NAME, RIGHT, TITLE, TOP, legend_grid
@@ -24,9 +25,9 @@ def plane_picture(data, boundary=None, size=None):
     names = (data.attrs["parameter"], data.attrs["second_parameter"])
     for one in curves:
         if one.attrs.get("format") != "eigentrail-boundary":
-            raise ValueError(f"boundary: expected a boundary file, found the format {one.attrs.get('format')!r}")
+            raise SceneError(f"boundary: expected a boundary file, found the format {one.attrs.get('format')!r}")
         if (one.attrs["parameter"], one.attrs["second_parameter"]) != names:
-            raise ValueError(f"boundary: expected one over {names[0]} and {names[1]}, found "
+            raise SceneError(f"boundary: expected one over {names[0]} and {names[1]}, found "
                              f"{one.attrs['parameter']} and {one.attrs['second_parameter']}")
     picture = Picture(*(size or (7.5, 5.5)), title=str(data.attrs.get("title", "")))
     legend = (_cell_legend(data) if is_map else []) + [entry for one in curves for entry in _curve_legend(one)]

@@ -4,6 +4,7 @@ from itertools import cycle
 
 import numpy as np
 
+from ..errors import SceneError
 from .curves import damping_percent, without_rounding
 from .drawing import geometry
 from .labels import Room, text_width
@@ -30,10 +31,10 @@ def shape_picture(loci, value, mode, view="3D", size=None):
     column = mode_number(loci, mode)
     shape = np.asarray(loci.mode_shape.values[node, column], complex)
     if view not in VIEWS:
-        raise ValueError(f"view={view!r}: expected one of {', '.join(map(repr, VIEWS))}")
+        raise SceneError(f"view={view!r}: expected one of {', '.join(map(repr, VIEWS))}")
     title = _title(loci, node, column)
     if not np.isfinite(shape).all() or not np.abs(shape).any():
-        raise ValueError(f"{title}: the mode does not exist there")
+        raise SceneError(f"{title}: the mode does not exist there")
     shape = shape / shape[np.abs(shape).argmax()]
     if "shaft_coordinate" in loci:
         return _bent_shafts(loci, shape, title, size)
@@ -50,13 +51,13 @@ def mode_number(loci, mode):
     names = [str(name) for name in loci.mode.values]
     if isinstance(mode, (int, np.integer)):
         if not 1 <= mode <= len(names):
-            raise ValueError(f"mode={mode}: the modes have the numbers 1 to {len(names)}")
+            raise SceneError(f"mode={mode}: the modes have the numbers 1 to {len(names)}")
         return int(mode) - 1
     named = [str(name) for name in loci.mode_name.values] if "mode_name" in loci.coords else []
     for list_of_names in (names, named):
         if mode in list_of_names:
             return list_of_names.index(mode)
-    raise ValueError(f"mode={mode!r}: expected a number from 1 to {len(names)}, or one of "
+    raise SceneError(f"mode={mode!r}: expected a number from 1 to {len(names)}, or one of "
                      f"{', '.join(map(repr, [name for name in names + named if name]))}")
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import SceneError
 from .labels import text_width
 from .loci import BOTTOM, NAME, RIGHT, TITLE, TOP
 from .picture import Axis, Line, Marks, Picture
@@ -15,13 +16,13 @@ LEFT = 0.9
 def work_precision_picture(study, work="wall_time", size=None):
     """Largest relative error over the work, for every method and order. `work`: wall_time, factorizations or points."""
     if work not in WORK:
-        raise ValueError(f"work={work!r}: expected one of {', '.join(map(repr, WORK))}")
+        raise SceneError(f"work={work!r}: expected one of {', '.join(map(repr, WORK))}")
     groups = {}
     for run, (method, order) in enumerate(zip(study.method.values, study.order.values)):
         if study.error.values[run] > 0 and study[work].values[run] > 0:
             groups.setdefault(f"{method}, order {order}" if order > 0 else str(method), []).append(run)
     if not groups:
-        raise ValueError("no run of this study has an error that was measured")
+        raise SceneError("no run of this study has an error that was measured")
     runs = np.concatenate(list(groups.values())).astype(int)
     picture = Picture(*(size or (8.0, 5.0)), title=str(study.attrs.get("title", "")), legend_right=True)
     names = (max(text_width(name, NAME) for name in groups) + 50) / 72

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import SceneError
 from .curves import damping_percent, oscillates, usual_range, with_ends
 from .drawing import excitation
 from .loci import BOTTOM, LEFT, MOST_NAMED, NAME, RIGHT, LociFigure, padded
@@ -33,7 +34,7 @@ def harmonics_of(figure, asked):
     found = excitation(figure.loci)
     if found is None:
         if asked:
-            raise ValueError(
+            raise SceneError(
                 f"harmonics need an angular velocity or a frequency as the parameter ({', '.join(ANGULAR)}), or an excitation "
                 f"in the scene's [trace]; the parameter {figure.parameter} has the unit {figure.parameter_unit!r}")
         return [], None
@@ -42,7 +43,7 @@ def harmonics_of(figure, asked):
         asked = sorted({float(value) for value in [*values, *found.harmonics] if np.isfinite(value) and value > 0})
     asked = [float(n) for n in np.atleast_1d(asked)]
     if any(not np.isfinite(n) or n <= 0 for n in asked):
-        raise ValueError(f"harmonics={asked}: expected positive numbers")
+        raise SceneError(f"harmonics={asked}: expected positive numbers")
     return asked, found
 
 
@@ -118,7 +119,7 @@ def oscillating(figure):
     """Modes that oscillate somewhere."""
     modes = [mode for mode in figure.modes if np.sum(oscillates(figure.curves.s[:, mode])) > 2]
     if not modes:
-        raise ValueError("no mode of this trace oscillates; root_locus() draws real eigenvalues")
+        raise SceneError("no mode of this trace oscillates; root_locus() draws real eigenvalues")
     return modes
 
 
