@@ -91,7 +91,7 @@ class Spectrum(CommandTest):
         rows = json.loads(self.run_well("spectrum", scene, "--at", "50", "7.5", "--json"))
         lines = self.run_well("spectrum", scene, "--at", "50", "7.5", "--csv").splitlines()
         self.assertEqual(lines[0], "parameter,mode,real,imag,natural_frequency_hz,damped_frequency_hz,damping_ratio,"
-                                   "log_decrement,condition,what_moves")
+                                   "log_decrement,condition,rounding,what_moves")
         self.assertEqual(len(rows), 4)
         for row, line in zip(rows, lines[1:]):
             s = complex(row["real"], row["imag"])
@@ -296,10 +296,17 @@ class Info(CommandTest):
                          ("stable", "start", "divergence"))
         self.assertAlmostEqual(stable["to"]["parameter"], 1.0, delta=1e-9)
 
-    def test_stable_ranges_of_some_modes_say_so(self):
+    def test_stable_ranges_of_some_modes_are_those_of_the_whole_model(self):
         self.trace(CROSSING, "--modes", "1")
-        self.assertIn("stable ranges (1 of 2 modes followed)\n    marginal  p = 0 -> 1  ",
-                      self.run_well("info", "loci.h5"))
+        self.assertIn("stable ranges\n    marginal  p = 0 -> 1  ", self.run_well("info", "loci.h5"))
+        ranges = json.loads(self.run_well("info", "loci.h5", "--json"))["stable_ranges"]
+        self.assertEqual([entry["whole_model"] for entry in ranges], [True])
+
+    def test_what_is_known_of_the_followed_modes_only_says_so(self):
+        self.trace(CROSSING, "--modes", "1")
+        with h5py.File(self.folder / "loci.h5", "r+") as file:
+            file["stable_whole"][:] = 0
+        self.assertIn("    marginal among the followed modes  p = 0 -> 1  ", self.run_well("info", "loci.h5"))
 
     def test_no_stable_range_is_said(self):
         self.trace(BIRTH, "--from", "1.1")

@@ -27,6 +27,8 @@ LAYOUT = {
     "mode_shape": (("node", "mode", "coordinate"), "1"),
     "residual": (("node", "mode"), "1"),
     "condition": (("node", "mode"), "1"),
+    "rounding": (("node", "mode"), "1/s"),
+    "growing_unfollowed": (("node",), "1"),
     "equilibrium": (("node", "coordinate"), "m"),
     "multiplier": (("node", "constraint"), "1"),
     "coordinate_unit": (("coordinate",), "1"),
@@ -60,12 +62,14 @@ LAYOUT = {
     "stable_least_margin": (("range",), "1/s"),
     "stable_largest_margin": (("range",), "1/s"),
     "stable_largest_at": (("range",), "rad/s"),
+    "stable_whole": (("range",), "1"),
 }
 DIMENSIONS = {"node", "step", "mode", "function", "end", "coordinate", "constraint", "order", "event", "range",
               "scene_parameter", "motion"}
 COMPLEX = {"eigenvalue", "eigenvalue_derivative", "mode_shape", "dense_output", "event_eigenvalue", "event_puiseux",
            "event_shape", "event_sensitivity"}
-WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "event_direction", "stable_mode"}
+WHOLE = {"dense_block", "dense_chart", "mode_block", "certified", "event_node", "event_direction", "stable_mode",
+         "stable_whole", "growing_unfollowed"}
 TEXTS = {"events", "stable_kind", "stable_cause", "scene_parameter_unit", "coordinate_unit", "mode_name"}
 OF_MASSES = {"kinetic_energy_share", "mode_name"}  # not in files of families of matrices
 
