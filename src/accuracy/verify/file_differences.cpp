@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
@@ -60,7 +64,6 @@ class Differences {
 
   FileDifferences find() {
     for (const std::string& name : traced_.members("/")) {
-      if (name == "complex128") continue;  // the type
       if (!stored_.has(name))
         result_.faults.push_back(name + " is missing");
       else
@@ -71,24 +74,26 @@ class Differences {
 
  private:
   void compare_elements(const std::string& name) {
-    switch (traced_.element_type(name)) {
-      case ElementType::real:
-        return compare(name, stored_.read_real(name), traced_.read_real(name));
-      case ElementType::complex:
-        return compare(name, stored_.read_complex(name), traced_.read_complex(name));
-      case ElementType::integer:
-        return compare(name, stored_.read_integers(name), traced_.read_integers(name));
-      case ElementType::text:
-        return compare(name, stored_.read_texts(name), traced_.read_texts(name));
-    }
+    const std::optional<StoredArray> traced = traced_.read(name);
+    if (!traced) return;  // a type
+    const std::optional<StoredArray> stored = stored_.read(name);
+    const auto compare_with = [&](const auto& expected) {
+      const auto* found = stored ? std::get_if<std::decay_t<decltype(expected)>>(&stored->elements) : nullptr;
+      if (found != nullptr)
+        compare(name, {stored->shape, traced->shape}, *found, expected);
+      else
+        result_.faults.push_back(name + " has elements of another type than in a new trace");
+    };
+    std::visit(compare_with, traced->elements);
   }
 
+  /// `shapes`: of the dataset in the file, and in a new trace.
   template <class Element>
-  void compare(const std::string& name, const std::vector<Element>& stored,
-               const std::vector<Element>& traced) {
+  void compare(const std::string& name, const std::pair<Shape, Shape>& shapes,
+               const std::vector<Element>& stored, const std::vector<Element>& traced) {
     result_.numbers += stored.size();
-    const Shape shape = stored_.shape(name);
-    if (shape != traced_.shape(name))
+    const Shape& shape = shapes.first;
+    if (shape != shapes.second)
       result_.faults.push_back(name + " has " + count_text(stored.size(), "element") + ", in a new trace " +
                                std::to_string(traced.size()));
     const auto common = static_cast<std::ptrdiff_t>(std::min(stored.size(), traced.size()));
