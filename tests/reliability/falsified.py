@@ -181,7 +181,7 @@ def event_turned(chance, file):
 
 
 def event_eigenvalue_off(chance, file):
-    change(file, "event_eigenvalue", some(chance, np.flatnonzero(np.abs(file["event_eigenvalue"][()]) > 0)), lambda s: 1.01 * s)
+    change(file, "event_eigenvalue", some(chance, np.flatnonzero(file["event_eigenvalue"][()])), lambda s: 1.01 * s)
 
 
 def event_of_another_kind(chance, file):
@@ -403,7 +403,8 @@ def main():
     parser.add_argument("--verbose", action="store_true")
     parser.add_argument("scenes", nargs="*")
     arguments = parser.parse_args()
-    scenes = [pathlib.Path(scene).resolve() for scene in arguments.scenes] or [*sorted(TEXTS), *sorted(SCENES.glob("*.toml"))]
+    given = [pathlib.Path(scene).resolve() for scene in arguments.scenes]
+    scenes = given or [*sorted(TEXTS), *sorted(SCENES.glob("*.toml"))]
     chance = random.Random(arguments.seed)
     files = Files(pathlib.Path(tempfile.mkdtemp(prefix="eigentrail-falsified-")))
     wrong = correct = falsified = 0

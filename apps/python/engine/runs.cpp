@@ -82,8 +82,8 @@ Outcome run_trace(const Scene& scene, const Options& options, const std::optiona
     setup.options.threads =
         threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     TracedFile traced = trace_in_memory(setup, [&](const Checkpoint& checkpoint, int points) {
-      const TraceOptions& options = setup.options;
-      return watch((checkpoint.so_far().reached - options.from) / (options.to - options.from), points);
+      const auto& [from, to] = std::pair(setup.options.from, setup.options.to);
+      return watch((checkpoint.so_far().reached - from) / (to - from), points);
     });
     result = std::move(traced.result);
     return std::move(traced.bytes);
