@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <utility>
 
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -41,9 +41,11 @@ Hdf5File::Hdf5File(const std::string& name, ReaderRequest request, const std::st
 }
 
 Hdf5File Hdf5File::open(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw Hdf5Error(path + ": no such file, or not a plain file");
+  try {
+    require_plain_file(path);
+  } catch (const InputError& error) {
+    throw Hdf5Error(error.what());
+  }
   return {path, ReaderRequest::open, path};
 }
 

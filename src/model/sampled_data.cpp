@@ -309,12 +309,8 @@ std::string outside_samples(const std::string& name, double value, const std::ve
 }
 
 bool holds_samples(const std::string& path) {
-  try {
-    const Hdf5File file = Hdf5File::open(path);
-    return file.has("/parameter") && !file.has_attribute("format");
-  } catch (const Hdf5Error&) {
-    return false;
-  }
+  const Hdf5File file = Hdf5File::open(path);
+  return file.has("/parameter") && !file.has_attribute("format");
 }
 
 SampledData read_samples(const std::string& path) {

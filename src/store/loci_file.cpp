@@ -4,11 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
@@ -295,7 +295,6 @@ double LociFile::certified_share(std::size_t mode) const {
 }
 
 void require_result_file(const std::string& path) {
-  require_plain_file(path);
   if (path.ends_with(".toml"))
     throw InputError(path + ": is a scene, no result; trace it first: eigentrail trace " + path + " -o " +
                      std::filesystem::path(path).filename().replace_extension(".h5").string());

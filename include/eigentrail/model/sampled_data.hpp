@@ -66,7 +66,7 @@ inline constexpr double same_value = 1e-12;
 std::string outside_samples(const std::string& name, double value, const std::vector<double>& samples);
 
 /// Whether a file is such a file, as far as a look at it tells: HDF5 with a dataset `parameter`, and not one
-/// of this program's results.
+/// of this program's results. Throws Hdf5Error if it cannot be read.
 bool holds_samples(const std::string& path);
 
 }  // namespace eigentrail
