@@ -57,7 +57,7 @@ void check_top_level(const Scene& scene) {
     throw scene_error(scene, value.where,
                       key + ": unknown key" + kind + ", not supported; " +
                           (meant.empty() ? "" : "did you mean '" + meant + "'? ") +
-                          "All tables are in docs/scene-tables.md, or printed by eigentrail reference");
+                          "all tables: docs/scene-tables.md, or eigentrail reference");
   }
   for (const char* name : {"disc", "support"}) {
     const Value* value = scene.root.find(name);

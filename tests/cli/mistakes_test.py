@@ -95,7 +95,7 @@ ROTORS = [
     ("disc by numbers and shape", ("Ip = 0.3", "Ip = 0.3\n§outer = 0.2"), "the mass is given already"),
     ("bearing without coefficients", ('kxx = "stiff"\n', ""), "expected coefficients such as kxx = 1e6"),
     ("misprint of a coefficient", ('kxx = "stiff"', 'kxx = "stiff"\n§kxz = 1'), "unknown key"),
-    ("table that does not exist", ('kxx = "stiff"', '§table = "absent.csv"'), "absent.csv: cannot be opened"),
+    ("table that does not exist", ('kxx = "stiff"', '§table = "absent.csv"'), "absent.csv: no such file"),
     ("table outside of the folder", ('kxx = "stiff"', '§table = "../bearing.csv"'), "expected a file in the scene's folder"),
     ("bearing between one node", ("node = [1, 4]", "§between = [1, 1]"), "names node 1 twice"),
     ("support of a freedom that is none", ("[[bearing]]", '[[support]]\nnode = 1\n§holds = "xx"\n[[bearing]]'),
@@ -162,7 +162,7 @@ SCENES = [
      "found a text"),
     ("negative expression without quotes", ("drag   = 2.0", "drag   = §-mass"), 'put expressions and names in quotes: drag = "-mass"'),
     ("quote that is not closed", ('name = "blade"', 'name = "blade§'), "a quote is opened here and never closed"),
-    ("two stars as a power", ('mass = "mass"', '§mass = "mass**2"'), "at character 6", "expected"),
+    ("two stars as a power", ('mass = "mass"', '§mass = "mass**2"'), "at character 5", "powers are written with '^'"),
     ("missing times", ('mass = "mass"', '§mass = "2 mass"'), "at character 3: unexpected 'm'"),
     ("misprint of a parameter", ('mass = "mass"', '§mass = "mas"'), "unknown parameter 'mas'; did you mean 'mass'?"),
     # Numbers.

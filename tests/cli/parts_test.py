@@ -98,7 +98,7 @@ class Parts(ProgramTest):
                 run.wait(timeout=TIME_LIMIT)
                 self.assertEqual(self.contents(), before)
                 run = self.run_program("merge", *names, "-o", "merged.h5")
-                self.assert_refused(run, [f"{names[1]}: cannot be read"])
+                self.assert_refused(run, [f"{names[1]}: no such file"])
         self.run_well(*command, "--part", "2/2", "-o", names[1], "--quiet")
         self.run_well("merge", *names, "-o", "merged.h5", "--quiet")
         self.assertEqual((self.folder / "merged.h5").read_bytes(), (self.folder / "whole.h5").read_bytes())

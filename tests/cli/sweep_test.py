@@ -132,7 +132,7 @@ class Sweep(CommandTest):
         run.kill()
         run.wait(timeout=TIME_LIMIT)
         merge = ("merge", "shared/part-1-of-2.h5", "shared/part-2-of-2.h5", "-o", "shared/index.csv", "--quiet")
-        self.assert_refused(self.run_program(*merge), ["part-2-of-2.h5: cannot be read"])
+        self.assert_refused(self.run_program(*merge), ["part-2-of-2.h5: no such file"])
         self.run_well(*SWEEP, "-o", "shared", "--part", "2/2", "--quiet", "--force")
         self.run_well(*merge)
         self.assertEqual((self.folder / "shared/index.csv").read_bytes(), (self.folder / "out/index.csv").read_bytes())
