@@ -40,7 +40,7 @@ struct ErrorsAt {
   double p = 0.0;
   Vector interpolation, rough, digits;
   Vector growth, rough_growth;  ///< interpolation and rough of Re s
-  Vector distance;  ///< of each eigenvalue from the next one
+  Vector distance;              ///< of each eigenvalue from the next one
 };
 
 class ErrorSampler {
@@ -270,7 +270,8 @@ std::optional<DataErrors> data_errors(const Model& model, const TraceOptions& op
   const auto n_steps = static_cast<Eigen::Index>(path.steps.size());
   const Eigen::Index n_modes = path.eigenvalues.cols();
   const Matrix unknown = Matrix::Constant(n_steps, n_modes, nan);
-  DataErrors errors{unknown, unknown, {}, unknown, unknown, unknown, [sampler](double p) { return sampler.shape(p); }};
+  DataErrors errors{
+      unknown, unknown, {}, unknown, unknown, unknown, [sampler](double p) { return sampler.shape(p); }};
   for (Eigen::Index step = 0; step < n_steps; ++step) {
     const auto at = static_cast<std::size_t>(step);
     const auto [low, high] = std::minmax(path.p[at], path.p[at + 1]);

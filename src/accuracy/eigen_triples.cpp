@@ -33,7 +33,8 @@ void drop_noise(Matrix& a) {
   const Vector columns = a.cwiseAbs().colwise().maxCoeff().transpose();
   for (Eigen::Index j = 0; j < a.cols(); ++j) {
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      if (std::abs(a(i, j)) <= std::numeric_limits<double>::epsilon() * std::min(rows[i], columns[j])) a(i, j) = 0.0;
+      if (std::abs(a(i, j)) <= std::numeric_limits<double>::epsilon() * std::min(rows[i], columns[j]))
+        a(i, j) = 0.0;
     }
   }
 }

@@ -360,7 +360,8 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
     }
     if (variances[c].size() == 0) continue;
     for (Eigen::Index i = 0; i < n_triples; ++i) {
-      const ComplexVector y = std::conj(power_of(all.s[i], one.power)) * all.left.col(i), z = all.right.col(i);
+      const ComplexVector y = std::conj(power_of(all.s[i], one.power)) * all.left.col(i),
+                          z = all.right.col(i);
       variance[i] += y.cwiseAbs2().dot(variances[c] * z.cwiseAbs2());
       of_growth[i] += variance_of_real_part(variances[c], y, z);
     }
@@ -389,7 +390,8 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
     const Vector here = options_.deviations_nearby * squares.cwiseSqrt();
     return estimators_here.amplification * on_range.cwiseMin(here) + floor;
   };
-  const ComplexMatrix missed = sees_nearby ? ComplexMatrix(shares * nearby) : ComplexMatrix::Zero(n_triples, 1);
+  const ComplexMatrix missed =
+      sees_nearby ? ComplexMatrix(shares * nearby) : ComplexMatrix::Zero(n_triples, 1);
   return {smooth, rough(variance, missed.cwiseAbs2().rowwise().sum()), digits, smooth_growth,
           rough(of_growth, missed.real().cwiseAbs2().rowwise().sum())};
 }

@@ -8,8 +8,9 @@
 namespace eigentrail {
 namespace {
 
-/// Whether the symmetric part of A + shift D is positive definite, D the magnitude of the diagonal of A. It is scaled
-/// to a diagonal of one, because entries of very different size have roundings of very different size.
+/// Whether the symmetric part of A + shift D is positive definite, D the magnitude of the diagonal of A. It
+/// is scaled to a diagonal of one, because entries of very different size have roundings of very different
+/// size.
 bool is_definite(const Matrix& A, double shift) {
   const Vector diagonal = A.diagonal().cwiseAbs();
   const Vector scale = diagonal.unaryExpr([](double a) { return a > 0.0 ? 1.0 / std::sqrt(a) : 1.0; });

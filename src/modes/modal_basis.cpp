@@ -238,7 +238,8 @@ PairSensitivity ModalBasis::sensitivity(const PairSet::Place& place, const Vecto
   for (Eigen::Index i = 0; i < place.size; ++i) {
     const Eigen::Index first = real_row_[static_cast<std::size_t>(place.first + i)];
     Vector row = left_.row(first).cwiseAbs();
-    if (!place.is_real) row = 0.5 * (row.cwiseAbs2() + left_.row(first + 1).transpose().cwiseAbs2()).cwiseSqrt();
+    if (!place.is_real)
+      row = 0.5 * (row.cwiseAbs2() + left_.row(first + 1).transpose().cwiseAbs2()).cwiseSqrt();
     squares.to_residual += row.squaredNorm();
     squares.to_terms += std::pow(row.dot(terms), 2);
   }

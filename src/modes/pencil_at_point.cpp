@@ -126,7 +126,8 @@ ComplexMatrix PencilAtPoint::residual(const ComplexMatrix& Z, const ComplexMatri
 Vector PencilAtPoint::terms(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const {
   const auto magnitudes = [](const Matrix& B, const std::shared_ptr<const Matrix>& band, const Matrix& X) {
     const ComplexMatrix columns = X.cast<Complex>();
-    return Matrix((band ? band_product(band->cwiseAbs(), columns) : multiply(Matrix(B.cwiseAbs()), columns)).real());
+    return Matrix(
+        (band ? band_product(band->cwiseAbs(), columns) : multiply(Matrix(B.cwiseAbs()), columns)).real());
   };
   const Matrix values = Z.cwiseAbs();
   const Matrix once = values.lazyProduct(Lambda.cwiseAbs());

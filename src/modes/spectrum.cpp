@@ -147,8 +147,8 @@ Homogeneous by_qr(const Eigen::PartialPivLU<Matrix>& M, const Matrix& C, const M
   return all;
 }
 
-/// Eigenvalues only, without damping: mu = +-sqrt(-lambda) with the eigenvalues lambda of K z = lambda M z. Those
-/// on the axes are exactly there.
+/// Eigenvalues only, without damping: mu = +-sqrt(-lambda) with the eigenvalues lambda of K z = lambda M z.
+/// Those on the axes are exactly there.
 Homogeneous by_squares(const Matrix& M, const Matrix& K) {
   const Eigen::Index n = M.rows();
   Matrix a = K, b = M;

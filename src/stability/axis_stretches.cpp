@@ -41,8 +41,8 @@ double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
 }
 
-/// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of the
-/// dense output, at a stored point those by rounding. `s`: the eigenvalues of all modes there.
+/// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of
+/// the dense output, at a stored point those by rounding. `s`: the eigenvalues of all modes there.
 Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const PathPosition& at,
                    const ComplexVector& s, const EigenvalueAccuracy& accuracy) {
   Vector doubts(static_cast<Eigen::Index>(block.modes.size()));
@@ -330,8 +330,8 @@ void settle_unseen(std::vector<AxisStretch>& stretches) {
   }
 }
 
-/// Judges a stretch by the growing modes of the whole model that are not followed, at the stored points inside
-/// and next to it.
+/// Judges a stretch by the growing modes of the whole model that are not followed, at the stored points
+/// inside and next to it.
 void include_unfollowed(const RecordedPath& path, AxisStretch& stretch) {
   int most = -1;
   for (std::size_t node = stretch.from.at.step; node <= stretch.to.at.step + 1; ++node) {

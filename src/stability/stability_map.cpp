@@ -77,10 +77,10 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<MapLine> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points, status,
-         message, reached, turned_back, n_modes, n_available, n_independent, counts] = self;
-  visit(second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points, status, message,
-        reached, turned_back, n_modes, n_available, n_independent, counts);
+  auto& [second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points,
+         status, message, reached, turned_back, n_modes, n_available, n_independent, counts] = self;
+  visit(second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points,
+        status, message, reached, turned_back, n_modes, n_available, n_independent, counts);
 }
 
 std::uint64_t MapLine::factorizations() const {

@@ -25,7 +25,7 @@ struct DataErrors {
   std::vector<EventInterval> intervals = {};  ///< per event of the trace
 
   // These are not stored:
-  Matrix rough = {};  ///< the part of `interpolation` that does not vanish at the samples
+  Matrix rough = {};                      ///< the part of `interpolation` that does not vanish at the samples
   Matrix growth = {}, rough_growth = {};  ///< the same two of Re s
   /// The rest at a value of the parameter, as a share of its largest value between two samples; refers to the
   /// model.

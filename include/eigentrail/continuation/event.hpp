@@ -40,9 +40,10 @@ struct Event {
   /// if not known.
   Complex puiseux = {};
   /// Flutter, divergence, damping_ratio, log_decrement, and a collision on the imaginary axis: 1 if the mode
-  /// becomes less stable there with growing p, -1 if more stable. Resonance: 1 if Im s grows faster with p than the multiple of the excitation
-  /// frequency; band_edge: if it grows with p. Extremum: 1 at a minimum of the damping ratio, -1 at a
-  /// maximum. 0: the function touches zero without a change of sign, or the kind has no direction.
+  /// becomes less stable there with growing p, -1 if more stable. Resonance: 1 if Im s grows faster with p
+  /// than the multiple of the excitation frequency; band_edge: if it grows with p. Extremum: 1 at a minimum
+  /// of the damping ratio, -1 at a maximum. 0: the function touches zero without a change of sign, or the
+  /// kind has no direction.
   int direction = 0;
   /// damping_ratio, extremum: the damping ratio -Re s/|s|; log_decrement: the decrement; resonance: the
   /// multiple of the excitation frequency; band_edge: the end of the band, rad/s.

@@ -8,9 +8,9 @@ namespace eigentrail {
 
 /// What counts as zero.
 struct RoundingThresholds {
-  /// Errors of the entries of M, C and K, in units of 2.2e-16 of their magnitudes: they are sums of products of
-  /// numbers with errors of their own. An eigenvalue, its real part, or a function of a block is zero where it
-  /// is below the error that follows (InvariantPair::rounding).
+  /// Errors of the entries of M, C and K, in units of 2.2e-16 of their magnitudes: they are sums of products
+  /// of numbers with errors of their own. An eigenvalue, its real part, or a function of a block is zero
+  /// where it is below the error that follows (InvariantPair::rounding).
   double entries = 10.0;
 };
 

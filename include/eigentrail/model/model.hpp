@@ -63,9 +63,7 @@ struct Structure {
 
   /// Whether with s also -conj(s) is an eigenvalue: without damping, if there are no gyroscopic terms or the
   /// system is Hamiltonian.
-  bool reflects_spectrum() const {
-    return !damped && (!gyroscopic || (symmetric_mass && !circulatory));
-  }
+  bool reflects_spectrum() const { return !damped && (!gyroscopic || (symmetric_mass && !circulatory)); }
 };
 
 /// How the blades of a rotor move together, in multiblade coordinates: as functions of the azimuth psi of a

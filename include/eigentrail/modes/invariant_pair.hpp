@@ -156,8 +156,8 @@ struct InvariantPair {
   ComplexMatrix W;       ///< 2n x k, normalization
   double backward_error = 0.0;  ///< |residual| / (magnitude |Z|), see PencilAtPoint::magnitude
   double condition = 0.0;  ///< relative condition number of the block, with respect to max(|mu|, reference)
-  /// Bound of the change of Lambda where every entry of the matrices changes by a rounding error of 2.2e-16 of
-  /// its magnitude: eps |y|^T (|mu|^2 |M| + |mu| |C| + |K|) |z| / |y^H P' z| for one mode.
+  /// Bound of the change of Lambda where every entry of the matrices changes by a rounding error of 2.2e-16
+  /// of its magnitude: eps |y|^T (|mu|^2 |M| + |mu| |C| + |K|) |z| / |y^H P' z| for one mode.
   double rounding = 0.0;
   std::shared_ptr<const PairFactorization> factors;  ///< null if the pair was not corrected by itself
 
@@ -178,8 +178,8 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts);
 
-/// Sets condition and rounding of a pair. `scale`: of its residual, |residual| / backward_error; `size`: that of
-/// its eigenvalues, at least the reference.
+/// Sets condition and rounding of a pair. `scale`: of its residual, |residual| / backward_error; `size`: that
+/// of its eigenvalues, at least the reference.
 void settle_accuracy(const PairSensitivity& sensitivity, double scale, double size, InvariantPair& pair);
 
 /// The factors of the pair, or new factors at the pair if it has none.

@@ -49,8 +49,8 @@ struct PencilAtPoint {
   /// M Z Lambda^2 + C Z Lambda + K Z.
   ComplexMatrix residual(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const;
   /// Magnitudes of the terms that the rows of the residual are sums of, n: the norms of the rows of
-  /// |M| |Z| |Lambda|^2 + |C| |Z| |Lambda| + |K| |Z|, with magnitudes entry by entry. Rounding of every entry of
-  /// the matrices by a share of it changes the residual by at most that share of them.
+  /// |M| |Z| |Lambda|^2 + |C| |Z| |Lambda| + |K| |Z|, with magnitudes entry by entry. Rounding of every entry
+  /// of the matrices by a share of it changes the residual by at most that share of them.
   Vector terms(const ComplexMatrix& Z, const ComplexMatrix& Lambda) const;
   /// |mu|^2 |M| + |mu| |C| + |K|, the scale of backward errors; `mu` is the magnitude of the eigenvalue.
   double magnitude(double mu) const;

@@ -23,8 +23,8 @@ InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalue
 /// Eigenvalues of Lambda. For a real block they are exactly real or exactly conjugate.
 ComplexVector pair_eigenvalues(const InvariantPair& pair);
 
-/// Errors of these eigenvalues where the entries of the pencil have errors of `entries` times 2.2e-16 of their
-/// magnitudes; `roots` are the pair's eigenvalues, in any order.
+/// Errors of these eigenvalues where the entries of the pencil have errors of `entries` times 2.2e-16 of
+/// their magnitudes; `roots` are the pair's eigenvalues, in any order.
 Vector eigenvalue_rounding(const InvariantPair& pair, const ComplexVector& roots, double entries);
 
 /// The same block in the other chart: Lambda is replaced by its inverse.

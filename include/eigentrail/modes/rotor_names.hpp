@@ -33,7 +33,8 @@ struct RotorMode {
   }
 };
 
-/// Describes a mode of a model with shafts at a point; arguments as for whirl_of. `rounding`: error of s, 1/s.
+/// Describes a mode of a model with shafts at a point; arguments as for whirl_of. `rounding`: error of s,
+/// 1/s.
 RotorMode rotor_mode(const Model& model, const Vector& parameters, Complex s, const ComplexVector& shape,
                      double rounding = 0.0);
 

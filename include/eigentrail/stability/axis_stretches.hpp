@@ -52,8 +52,8 @@ struct AxisStretch {
   /// False if at no sample the real parts exceed the error of the dense output, as on very short stretches.
   /// The stability then follows from a neighbouring stretch if possible, and is marginal otherwise.
   bool seen = true;
-  /// Whether no mode grows that is not followed, by the stored points inside and next to it. Where some grow the
-  /// stretch is unstable.
+  /// Whether no mode grows that is not followed, by the stored points inside and next to it. Where some grow
+  /// the stretch is unstable.
   bool whole = false;
   /// Samples inside, in the order of the trace, and at those ends that are not on the axis; at least one.
   std::vector<AxisSample> samples = {};

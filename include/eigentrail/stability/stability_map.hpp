@@ -45,7 +45,7 @@ struct MapLine {
   std::vector<double> damping_ratio;  ///< per cell: least -Re s/|s| of the complex pairs; NaN: none, unknown
   int marginal_cells = 0;             ///< number of cells where no mode grows and some are on the axis
   int doubtful_cells = 0;             ///< number of unknown cells on steps where the trace lacks a mode
-  int partial_cells = 0;   ///< number of cells where no followed mode grows and others are not known
+  int partial_cells = 0;  ///< number of cells where no followed mode grows and others are not known
   std::vector<AxisPoint> axis_points;
   TraceStatus status = TraceStatus::completed;
   std::string message;             ///< reason when not completed

@@ -28,7 +28,8 @@ struct StableRange {
   bool whole = false;
 };
 
-/// Stable and marginal ranges from the first point of the path to the last. `events`: all events of the trace, in any order.
+/// Stable and marginal ranges from the first point of the path to the last. `events`: all events of the
+/// trace, in any order.
 std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
                                        const EigenvalueAccuracy& accuracy);
 

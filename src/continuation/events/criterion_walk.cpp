@@ -133,7 +133,8 @@ class CriterionWalk {
 
 double CriterionWalk::rounding() const {
   const Track& there = mode_->solved.node.tracks.front();
-  return rounding_of_roots(there, search_.thresholds().rounding)[nearest_member(there, mode_->root, member_.index)];
+  return rounding_of_roots(there,
+                           search_.thresholds().rounding)[nearest_member(there, mode_->root, member_.index)];
 }
 
 double CriterionWalk::rounding_of_mean() const {

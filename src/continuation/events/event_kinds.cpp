@@ -36,8 +36,8 @@ std::string collision_remark(const EventFacts& facts) {
   constexpr double rounding = 1e-12;
   if (std::abs(puiseux.real()) < rounding * std::abs(puiseux)) puiseux.real(0.0);
   if (std::abs(puiseux.imag()) < rounding * std::abs(puiseux)) puiseux.imag(0.0);
-  return stability + (stability.empty() ? "" : ", ") + "Puiseux coefficient " + rounded(puiseux.real()) + (std::signbit(puiseux.imag()) ? " - " : " + ") +
-         rounded(std::abs(puiseux.imag())) + "j";
+  return stability + (stability.empty() ? "" : ", ") + "Puiseux coefficient " + rounded(puiseux.real()) +
+         (std::signbit(puiseux.imag()) ? " - " : " + ") + rounded(std::abs(puiseux.imag())) + "j";
 }
 
 std::string veering_remark(const EventFacts& facts) {

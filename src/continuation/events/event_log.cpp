@@ -51,8 +51,7 @@ bool are_one(const Event& a, const Event& b, double range, const EventThresholds
   const bool of_same_modes = veering || a.kind == EventKind::branch_point || a.modes == b.modes;
   const double place = (veering ? thresholds.same_veering : thresholds.same_place) * range;
   const double scale = std::max(std::abs(a.s), std::abs(b.s));
-  return of_same_modes && std::abs(a.p - b.p) <= place &&
-         std::abs(a.half_width - b.half_width) <= place &&
+  return of_same_modes && std::abs(a.p - b.p) <= place && std::abs(a.half_width - b.half_width) <= place &&
          (!veering || std::abs(a.s - b.s) <= thresholds.same_eigenvalue * scale);
 }
 

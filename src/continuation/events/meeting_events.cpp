@@ -11,9 +11,9 @@
 namespace eigentrail {
 namespace {
 
-/// The eigenvalue of the event: the mean of those that meet, with Im s >= 0. Its real part is zero where it is
-/// below `rounding`, the error of the mean. `is_pair`: a pair and its conjugate meet, and the mean is real but
-/// for rounding.
+/// The eigenvalue of the event: the mean of those that meet, with Im s >= 0. Its real part is zero where it
+/// is below `rounding`, the error of the mean. `is_pair`: a pair and its conjugate meet, and the mean is real
+/// but for rounding.
 Complex place_of(const Track& track, const Meeting& meeting, bool is_pair, double rounding) {
   Complex mean = 0.0;
   for (const int i : meeting.members) mean += track.roots[i];
@@ -40,8 +40,8 @@ bool settle_veering(const EventSearch& search, const PathNode& node, const Track
   return true;
 }
 
-/// Where two eigenvalues meet on the imaginary axis: 1 if they leave it with growing p, so that one of them grows;
-/// -1 if they come from there. 0 for other collisions.
+/// Where two eigenvalues meet on the imaginary axis: 1 if they leave it with growing p, so that one of them
+/// grows; -1 if they come from there. 0 for other collisions.
 int direction_off_axis(const Event& event, int cycle) {
   if (event.s.real() != 0.0 || cycle != 2) return 0;
   const double square = (event.puiseux * event.puiseux).real();
@@ -68,8 +68,7 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   Event event;
   event.kind = meeting.kind;
   event.p = node.p + meeting.offset * speed;
-  event.s = place_of(track, meeting, is_pair,
-                     search.thresholds().rounding.entries * track.pair.rounding);
+  event.s = place_of(track, meeting, is_pair, search.thresholds().rounding.entries * track.pair.rounding);
   event.modes = modes;
   if (event.kind == EventKind::veering) event.half_width = std::abs(speed) * meeting.half_width;
   if (event.kind == EventKind::collision) {

@@ -38,8 +38,8 @@ struct Stretch {
 /// off the real axis are found.
 class RootsOnStep {
  public:
-  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `stretch`: what is
-  /// looked at of the step.
+  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `stretch`: what
+  /// is looked at of the step.
   RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, const Stretch& stretch)
       : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), stretch_(stretch) {}
 

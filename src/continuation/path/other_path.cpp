@@ -156,7 +156,8 @@ std::optional<OtherStart> start_on_other_path(const PointSolver& solver, const P
   start.frame.plane = plane;
   start.frame.direction = 1.0;
   start.frame.bridge = bridge;
-  // On either path the point is known as well as that path tells; both differ by the rounding of the stiffness.
+  // On either path the point is known as well as that path tells; both differ by the rounding of the
+  // stiffness.
   const double here = start.frame.coordinate(node);
   start.frame.branch_point = {here, bridge->path(here, 1).parameters(solver.problem().traced, 0)};
   std::optional<SolvedPoint> there =

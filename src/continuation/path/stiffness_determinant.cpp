@@ -12,33 +12,33 @@
 namespace eigentrail {
 namespace {
 
-/// Error of an entry of a reduced stiffness, in units of 2.2e-16 of the magnitudes of the terms that it is a sum
-/// of. As RoundingThresholds::entries.
+/// Error of an entry of a reduced stiffness, in units of 2.2e-16 of the magnitudes of the terms that it is a
+/// sum of. As RoundingThresholds::entries.
 constexpr double roundings = 10.0;
 
-/// A stiffness in reduced coordinates, the magnitudes of the terms that its entries are sums of, and the norm of the
-/// whole: in its entries stiffnesses of elements may have cancelled, of which the terms tell nothing.
+/// A stiffness in reduced coordinates, the magnitudes of the terms that its entries are sums of, and the norm
+/// of the whole: in its entries stiffnesses of elements may have cancelled, of which the terms tell nothing.
 struct Stiffness {
   Matrix K, terms;
   double whole;
 };
 
 /// In coordinates in which the terms of the diagonal are one: stiffnesses of very different size, as those of
-/// stretching and bending, do not hide each other. Without a sign if the smallest singular value there is at most
-/// `margin` times the error by rounding.
+/// stretching and bending, do not hide each other. Without a sign if the smallest singular value there is at
+/// most `margin` times the error by rounding.
 LogDeterminant determinant_of(const Stiffness& stiffness, double margin) {
   if (stiffness.K.size() == 0) return {};
-  const Vector scale =
-      stiffness.terms.diagonal().unaryExpr([](double term) { return term > 0.0 ? 1.0 / std::sqrt(term) : 1.0; });
+  const Vector scale = stiffness.terms.diagonal().unaryExpr(
+      [](double term) { return term > 0.0 ? 1.0 / std::sqrt(term) : 1.0; });
   const auto norm = [](const Matrix& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
   const Matrix K = scale.asDiagonal() * stiffness.K * scale.asDiagonal();
-  const double rounding =
-      std::numeric_limits<double>::epsilon() *
-      (roundings * norm(scale.asDiagonal() * stiffness.terms * scale.asDiagonal()) +
-       stiffness.whole * scale.cwiseAbs2().maxCoeff());
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          (roundings * norm(scale.asDiagonal() * stiffness.terms * scale.asDiagonal()) +
+                           stiffness.whole * scale.cwiseAbs2().maxCoeff());
   const Eigen::PartialPivLU<Matrix> lu(K);
   if (!(lu.rcond() * norm(K) > margin * rounding)) return {};
-  LogDeterminant result{static_cast<double>(lu.permutationP().determinant()), -2.0 * scale.array().log().sum()};
+  LogDeterminant result{static_cast<double>(lu.permutationP().determinant()),
+                        -2.0 * scale.array().log().sum()};
   for (const double pivot : lu.matrixLU().diagonal()) {
     result.sign *= pivot > 0.0 ? 1.0 : -1.0;
     result.logarithm += std::log(std::abs(pivot));

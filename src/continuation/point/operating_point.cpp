@@ -56,22 +56,23 @@ class ModeAtPoint {
   double condition_ = 0.0, backward_error_ = 0.0;
 };
 
-/// Refines the first `n` eigenvalues of a spectrum by Newton's method, close ones together: QZ is accurate relative
-/// to the largest ones only. Returns their errors by rounding, 1/s.
+/// Refines the first `n` eigenvalues of a spectrum by Newton's method, close ones together: QZ is accurate
+/// relative to the largest ones only. Returns their errors by rounding, 1/s.
 std::vector<double> refine(const ReducedPencil& pencil, int n, Spectrum& spectrum) {
   const double s_ref = zero_share * spectrum.scale;
   std::vector<double> rounding(static_cast<std::size_t>(n), std::numeric_limits<double>::infinity());
   ModeCounts counts;
   for (const StartingGroup& group : starting_groups(pencil, spectrum.modes, n, s_ref)) {
-    const InvariantPair pair =
-        correct_pair(PencilAtPoint(pencil.of(group.pair.part)), group.pair, s_ref, CorrectorOptions(), counts);
+    const InvariantPair pair = correct_pair(PencilAtPoint(pencil.of(group.pair.part)), group.pair, s_ref,
+                                            CorrectorOptions(), counts);
     if (pair.status != PairStatus::converged) continue;
     const ComplexVector roots = in_order_of(group.roots, pair_eigenvalues(pair));
     const Vector errors = eigenvalue_rounding(pair, roots, Thresholds().rounding.entries);
     for (Eigen::Index i = 0; i < roots.size(); ++i) {
       const int mode = group.modes[static_cast<std::size_t>(i)];
       if (mode < 0) continue;
-      spectrum.modes[static_cast<std::size_t>(mode)].s = roots[i].imag() < 0.0 ? std::conj(roots[i]) : roots[i];
+      spectrum.modes[static_cast<std::size_t>(mode)].s =
+          roots[i].imag() < 0.0 ? std::conj(roots[i]) : roots[i];
       rounding[static_cast<std::size_t>(mode)] = errors[i];
     }
   }

@@ -16,7 +16,8 @@ namespace {
 /// Relative size below which a quantity counts as zero:
 ///  - singular values of P(s) = s^2 M + s C + K relative to the largest one: their vectors span the kernel;
 ///  - the determinant of Y* P'(s) Z, of the kernel's vectors, relative to |P'(s)|: s is defective;
-///  - how much the derivatives of the members of a semisimple eigenvalue differ, relative to their size: the members
+///  - how much the derivatives of the members of a semisimple eigenvalue differ, relative to their size: the
+///  members
 ///    separate with the parameter, and none of them has a derivative of its own.
 /// It is the square root of rounding, the accuracy of a double eigenvalue. With a larger value close but
 /// different eigenvalues are taken for one, with a smaller one the derivative may be dominated by rounding.
@@ -36,14 +37,14 @@ ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
   const ComplexMatrix P = s * s * pencil.M[0] + s * pencil.C[0] + pencil.K[0];
   const ComplexMatrix derivative = 2.0 * s * pencil.M[0] + pencil.C[0].cast<Complex>();
   const SingularVectors<ComplexMatrix> svd = singular_vectors(P);
-  const Eigen::Index m =
-      std::max<Eigen::Index>(1, (svd.values.array() <= multiple * svd.values[0]).count());
+  const Eigen::Index m = std::max<Eigen::Index>(1, (svd.values.array() <= multiple * svd.values[0]).count());
   const ComplexMatrix Z = svd.V.rightCols(m), Y = svd.U.rightCols(m);
   return {s, Z, Y, Y.adjoint() * derivative * Z, derivative.norm()};
 }
 
-/// ds/de = -y* (s^2 M_e + s C_e + K_e) z / (y* P'(s) z) from the coefficients of order 1 of the pencil's series in e;
-/// of a semisimple eigenvalue, that of all its members. NaN where the eigenvalue is defective or they separate.
+/// ds/de = -y* (s^2 M_e + s C_e + K_e) z / (y* P'(s) z) from the coefficients of order 1 of the pencil's
+/// series in e; of a semisimple eigenvalue, that of all its members. NaN where the eigenvalue is defective or
+/// they separate.
 Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
   const auto along = [](const MatrixSeries& series, Eigen::Index n) -> Matrix {
     return series.size() > 1 ? series[1] : Matrix(Matrix::Zero(n, n));

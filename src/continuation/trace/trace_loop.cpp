@@ -427,7 +427,8 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   TraceResult& result = state_.result;
   Newcomers needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
   const int guests = number_growing_guests(problem_, step.right, state_.origin.node, state_.numbers);
-  if (guests + follow_back(problem_, needed.tracks, step.h, state_.origin.node, state_.numbers, result.counts) >
+  if (guests +
+          follow_back(problem_, needed.tracks, step.h, state_.origin.node, state_.numbers, result.counts) >
       0) {
     number_modes(state_, state_.origin.node);
     state_.origin.tried.reset();
@@ -619,9 +620,8 @@ bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   result.reached = node.p;
   ++result.nodes;
   const StageTimer timer(result.counts.output_seconds);
-  if (observer_.point({node,
-                       mode_states(node, problem_.traced, state_.copies, problem_.thresholds.rounding), step,
-                       growing_unfollowed_}))
+  if (observer_.point({node, mode_states(node, problem_.traced, state_.copies, problem_.thresholds.rounding),
+                       step, growing_unfollowed_}))
     return true;
   return stop(TraceStatus::stopped, "stopped on request at " + place_text(options_, node.p));
 }

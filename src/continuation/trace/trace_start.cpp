@@ -20,8 +20,8 @@ namespace {
 /// larger value loosens the tolerance of slow modes, a smaller one may ask for more accuracy near zero than
 /// rounding allows.
 constexpr double reference_share = 1e-3;
-/// s_ref is at most this share of the slowest oscillation, so that every oscillation has its relative accuracy.
-/// A smaller value costs points where eigenvalues pass zero.
+/// s_ref is at most this share of the slowest oscillation, so that every oscillation has its relative
+/// accuracy. A smaller value costs points where eigenvalues pass zero.
 constexpr double share_of_slowest = 0.1;
 /// Least median |s| that is used, as a share of the scale of the pencil. A smaller median is rounding: most
 /// modes are rigid-body motions.

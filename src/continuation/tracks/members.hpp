@@ -17,8 +17,8 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
 /// The eigenvalues of a track with these indices.
 std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members);
 
-/// Errors of the eigenvalues of a track by rounding of the entries of the pencil, in its chart, in the order of
-/// `roots`: those that its functions have at the point or near it.
+/// Errors of the eigenvalues of a track by rounding of the entries of the pencil, in its chart, in the order
+/// of `roots`: those that its functions have at the point or near it.
 Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,
                          const RoundingThresholds& thresholds);
 /// The same at the point of the track.

@@ -48,8 +48,8 @@ Complex slope_of(const Track& track, Complex root, Eigen::Index index, double sp
 }
 
 /// The mode of root i of a track; `vectors` as from vectors_of.
-ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors, double rounding,
-                   double speed) {
+ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors,
+                   double rounding, double speed) {
   ModeState state;
   state.mode = mode;
   const Complex root = track.roots[i];

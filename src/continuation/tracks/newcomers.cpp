@@ -34,8 +34,8 @@ int growing_roots(const ComplexVector& roots) {
   return static_cast<int>((roots.real().array() > 0.0 && roots.imag().array() >= 0.0).count());
 }
 
-/// Makes guests of the modes of a track that are not needed: neither wanted, nor growing by more than rounding.
-/// Returns whether any is.
+/// Makes guests of the modes of a track that are not needed: neither wanted, nor growing by more than
+/// rounding. Returns whether any is.
 template <class IsWanted>
 bool dismiss_unneeded(const PathProblem& problem, const IsWanted& is_wanted, Track& track) {
   const Vector rounding = rounding_of_roots(track, problem.thresholds.rounding);

@@ -1,5 +1,5 @@
-// Modes that nobody follows and a trace needs: those that come into the chosen band, or become less damped than
-// asked for, and those that grow, because the verdict of the trace is about the whole model.
+// Modes that nobody follows and a trace needs: those that come into the chosen band, or become less damped
+// than asked for, and those that grow, because the verdict of the trace is about the whole model.
 #pragma once
 
 #include "continuation/tracks/mode_order.hpp"
@@ -8,7 +8,8 @@
 namespace eigentrail {
 
 struct Newcomers {
-  /// Single modes and blocks. Their `modes` hold numbers from 0 for those that are needed, as guests the others.
+  /// Single modes and blocks. Their `modes` hold numbers from 0 for those that are needed, as guests the
+  /// others.
   std::vector<Track> tracks = {};
   /// Number of growing modes of the whole model that are neither followed nor in `tracks`; -1: not known.
   int growing = -1;
@@ -16,8 +17,8 @@ struct Newcomers {
 
 /// The newcomers at a point. Where eigenvalues meet nothing is known. Of a large model only its projection is
 /// searched, for modes that the choice wants. Cost: two Cholesky factors where the energy shows that nothing
-/// grows and the choice is settled at the start (ModeChoice::may_grow), else a spectrum without vectors, and the
-/// correction of every mode with Re s > 0 in it.
+/// grows and the choice is settled at the start (ModeChoice::may_grow), else a spectrum without vectors, and
+/// the correction of every mode with Re s > 0 in it.
 Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
                     RunCounts& counts);
 
@@ -26,8 +27,8 @@ Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const 
 int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h, PathNode& left,
                 ModeNumbers& numbers, RunCounts& counts);
 
-/// Gives numbers to the guests of a step's blocks that grow at its right end, at the left end: the step has to be
-/// taken again, with them. `right`, `left`: its ends, with the same tracks. Returns how many there are.
+/// Gives numbers to the guests of a step's blocks that grow at its right end, at the left end: the step has
+/// to be taken again, with them. `right`, `left`: its ends, with the same tracks. Returns how many there are.
 int number_growing_guests(const PathProblem& problem, const PathNode& right, PathNode& left,
                           ModeNumbers& numbers);
 

@@ -21,8 +21,8 @@ struct Strand {
 /// has computed.
 class StrandSampler {
  public:
-  /// `index`: of the track, the same at both ends. `length`: signed length of the step. Keeps a reference to the
-  /// track.
+  /// `index`: of the track, the same at both ends. `length`: signed length of the step. Keeps a reference to
+  /// the track.
   StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
 
   /// Smooth functions of the track on the step (modes/invariants.hpp).
