@@ -100,8 +100,11 @@ std::vector<MotionShare> motion_shares(const std::vector<std::string>& names, co
   for (Motion& one : motions) {
     if (one.share > 0.0) result.push_back({std::move(one.name), one.share});
   }
+  // Shares that are equal but for rounding stay in the order of the coordinates.
+  constexpr double told_apart = 1e-9;
+  const auto steps = [](const MotionShare& one) { return std::round(one.share / told_apart); };
   std::stable_sort(result.begin(), result.end(),
-                   [](const MotionShare& a, const MotionShare& b) { return a.share > b.share; });
+                   [&](const MotionShare& a, const MotionShare& b) { return steps(a) > steps(b); });
   return result;
 }
 
