@@ -3,6 +3,7 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 namespace eigentrail::reader {
@@ -92,14 +93,22 @@ decltype(StoredArray::elements) read_elements(ElementType type, hid_t stored, hi
   }
 }
 
-/// Refuses data that are elsewhere, and shapes far larger than what is stored: a few bytes of damage could
-/// otherwise make a reader take all memory. Up to 64 KiB (small empty datasets), or sixteen times what is
-/// stored (modes that were added late in a trace), may be unwritten; they read as fill values.
+/// Refuses data that are elsewhere or compressed in a way that is not HDF5's own, and shapes far larger than
+/// what is stored: a few bytes of damage could otherwise make a reader take all memory. Up to 64 KiB (small
+/// empty datasets), or sixteen times what is stored (modes that were added late in a trace), may be
+/// unwritten; they read as fill values.
 void check_storage(hid_t set, hid_t space, const Shape& shape, std::size_t element, const std::string& name) {
   const Handle properties(H5Dget_create_plist(set), H5Pclose, "read how " + name + " is stored");
   const H5D_layout_t layout = H5Pget_layout(properties);
   if (layout == H5D_VIRTUAL || H5Pget_external_count(properties) != 0)
     throw Hdf5Error("the data of " + name + " are in another file or dataset; copy them into this one");
+  for (int i = 0; i < H5Pget_nfilters(properties); ++i) {
+    std::array<char, 64> filter{};
+    std::size_t values = 0;
+    if (H5Zfilter_avail(H5Pget_filter2(properties, static_cast<unsigned>(i), nullptr, &values, nullptr,
+                                       filter.size() - 1, filter.data(), nullptr)) <= 0)
+      throw Hdf5Error(name + " is compressed by '" + filter.data() + "'; write it with deflate (gzip)");
+  }
   hsize_t stored = H5Dget_storage_size(set);
   if (layout == H5D_CHUNKED) {
     std::vector<hsize_t> chunk(shape.size());

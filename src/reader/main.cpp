@@ -95,5 +95,6 @@ class Server {
 int main() {
   eigentrail::reader::limit(RLIMIT_CORE, 0);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5PLset_loading_state(0);  // no filters but those of HDF5
   eigentrail::reader::Server().run();
 }

@@ -262,7 +262,7 @@ HDF5 = [
     unreadable("link to another file", "elsewhere.h5", "/K/0"),
     unreadable("matrix that lies in another file as bytes", "raw.h5", "/K/0"),
     unreadable("matrix put together from another file", "virtual.h5", "/K/0"),
-    unreadable("matrix compressed by LZF", "lzf.h5", "required filter 'lzf' is not registered"),
+    unreadable("matrix compressed by LZF", "lzf.h5", "/K/0 is compressed by 'lzf'; write it with deflate"),
     unreadable("link that leads out of the folder", "link.h5", "leads out of the scene's folder"),
     unreadable("link that leads to itself", "circle.h5"),
 ]
