@@ -26,6 +26,7 @@ double reference_of(const TraceOptions& options, const ComplexVector& s) {
 /// The largest error of the chosen modes at p.
 Suggestion suggestion_at(const TraceSetup& setup, double p) {
   const OperatingPoint point = operating_points(setup, {p}).front();
+  if (point.none_in_band) return {p, 0.0, {}, {}};
   if (!point.fault.empty()) throw InputError(setup.scene.path + ": " + point.fault);
   ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
   for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;

@@ -90,7 +90,7 @@ TEST(TextLines, FilesThatCannotBeRead) {
   const test::Folder folder;
   EXPECT_TRUE(
       test::contains(test::input_error([&] { read_text_file(folder.path() + "/none"); }), "no such file"));
-  EXPECT_TRUE(test::contains(test::input_error([&] { read_text_file(folder.path()); }), "no such file"));
+  EXPECT_TRUE(test::contains(test::input_error([&] { read_text_file(folder.path()); }), "is a folder"));
   std::ofstream(folder.path() + "/text") << "a\n";
   EXPECT_EQ(read_text_file(folder.path() + "/text"), "a\n");
 }

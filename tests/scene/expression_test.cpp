@@ -215,7 +215,7 @@ TEST(Expression, MalformedTextsNameTheFaultAndItsPlace) {
       {"1e", 1, "unexpected 'e'"},
       {"0x10", 1, "unexpected 'x'"},
       {"* 2", 0, "unexpected '*'"},
-      {"2 ** 3", 3, "unexpected '*'"},
+      {"2 ** 3", 2, "powers are written with '^'"},
       {"()", 1, "unexpected ')'"},
       {"sin()", 4, "unexpected ')'"},
       {"1, 2", 1, "unexpected ','"},

@@ -121,7 +121,8 @@ std::string name_by_freedoms(const Projection& projection, const ComplexVector& 
 /// `point` is computed in the coordinates in which the equations fall apart, if they do: zeros of rigid-body
 /// motions are exact there.
 OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, double p) {
-  OperatingPoint result{p};
+  OperatingPoint result;
+  result.p = p;
   Spectrum spectrum = compute_spectrum(point.pencil);
   if (spectrum.status != SpectrumStatus::complete) {
     result.fault = spectrum.status == SpectrumStatus::singular_pencil
@@ -135,6 +136,7 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   spectrum.modes.resize(static_cast<std::size_t>(wanted));
   const bool none = spectrum.modes.size() == 1 && !choice.wants(spectrum.modes.front().s);
   if (none && choice.band) {
+    result.none_in_band = true;
     result.fault = "none of " + in_words(choice) + "; the nearest is " +
                    exact_text(spectrum.modes.front().s.imag()) + " rad/s";
     return result;
