@@ -164,6 +164,7 @@ void print_json(const LociFile& loci) {
 }
 
 int run_info(const InfoArguments& arguments) {
+  require_result_file(arguments.file);
   if (holds_samples(arguments.file)) {
     if (arguments.scene)
       throw InputError(arguments.file + ": holds samples of matrices; --scene is for loci files");

@@ -40,6 +40,8 @@ def enlarge(path, n_points=2000, n_modes=100):
         replace(file, "eigenvalue", s[:, :, 0])
         replace(file, "residual", np.zeros((n_points, n_modes)))
         replace(file, "condition", np.ones((n_points, n_modes)))
+        replace(file, "rounding", np.full((n_points, n_modes), 1e-14))
+        replace(file, "growing_unfollowed", np.zeros(n_points, dtype=np.int64))
         shapes = np.cos(np.arange(n_points * n_modes * coordinates)).reshape(n_points, n_modes, coordinates)
         replace(file, "mode_shape", shapes + 0j)
         replace(file, "equilibrium", np.zeros((n_points, coordinates)))

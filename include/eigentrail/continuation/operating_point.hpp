@@ -13,8 +13,9 @@ struct OperatingMode {
   Complex s;               ///< 1/s; of a complex pair the member with Im s > 0
   double condition = 0.0;  ///< relative condition number; infinite where the eigenvalue is defective
   double backward_error = 0.0;
-  double rounding = 0.0;  ///< error of s by rounding of the entries of the matrices, 1/s; infinite if not known
-  ComplexVector shape;     ///< physical coordinates, of unit length
+  double rounding =
+      0.0;              ///< error of s by rounding of the entries of the matrices, 1/s; infinite if not known
+  ComplexVector shape;  ///< physical coordinates, of unit length
   std::string what_moves;  ///< "blade flap", or the coordinates that take part most: "q3 71 %, q4 24 %"
 };
 
