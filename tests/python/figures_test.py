@@ -295,7 +295,8 @@ class Sampled(FigureTest):
         picture = trace_figures.campbell_picture(loci)
         panel = picture.panels[0]
         bands = {item.name: item for item in panel.of(Area)}
-        self.assertEqual(set(bands), {f"error of mode {i + 1}" for i in range(loci.sizes["mode"])})
+        oscillates = np.nanmax(loci.damped_frequency.values, axis=0) > 0
+        self.assertEqual(set(bands), {f"error of mode {i + 1}" for i in np.flatnonzero(oscillates)})
         band, n = bands["error of mode 1"], len(bands["error of mode 1"].x) // 2
         at = n // 2
         found = loci.eigentrail.sel(mode="mode 1", **{loci.eigentrail.parameter: band.x[at]})

@@ -158,7 +158,7 @@ def _checked_format(path: str, attributes: Mapping[str, Any]) -> str:
         raise SceneError(f"{path}: has no attribute 'format'; {EXPECTED}")
     if kind not in COORDINATES:
         raise SceneError(f"{path}: holds {kind!r}; {EXPECTED}")
-    if not np.array_equal(attributes.get("schema_version"), SCHEMA):
+    if not np.array_equal(attributes.get("schema_version", 0), SCHEMA):
         raise SceneError(f"{path}: has schema {attributes.get('schema_version')}, this reader knows schema {SCHEMA}; "
                          "take the reader that came with the program that wrote it")
     return kind
