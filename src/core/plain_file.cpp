@@ -30,7 +30,7 @@ std::string read_text(const std::string& path, std::uintmax_t most_bytes) {
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream) throw InputError(path + ": cannot be read");
   if (text.find('\0') != std::string::npos)
-    throw InputError(path + ": is not a text file: it has bytes that are zero");
+    throw InputError(path + ": is not a text file in UTF-8: it has bytes that are zero");
   return text;
 }
 

@@ -261,6 +261,15 @@ const std::string& LociFile::attribute(const std::string& name) const {
   return found->second;
 }
 
+double LociFile::number(const std::string& name) const {
+  const std::string& text = attribute(name);
+  double value = 0.0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size())
+    throw InputError(path + ": attribute " + name + ": expected a number, found '" + printable(text) + "'");
+  return value;
+}
+
 std::size_t LociFile::nearest_node(double value) const {
   const auto closer = [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); };
   return static_cast<std::size_t>(std::min_element(p.begin(), p.end(), closer) - p.begin());

@@ -70,7 +70,7 @@ class Verify(ProgramTest):
 
     def test_where_qz_is_off_extended_precision_judges(self):
         self.assert_passes(self.states_of_mixed_units())
-        self.assertIn("refined in extended precision", self.verify().stdout)
+        self.assertIn("of them refined", self.verify().stdout)
 
     def test_extended_precision_does_not_forgive(self):
         self.assert_passes(self.states_of_mixed_units())

@@ -340,6 +340,8 @@ ROWS = FORM + ATTRIBUTES + SHAPES + NUMBERS + STATES
 NOT_READ = {"frequency", "damped_frequency", "damping_ratio", "eigenvalue_derivative", "coordinate_unit", "kinetic_energy_share", "motion",
             "scene_parameter_unit", "node", "step", "function", "end", "order", "event", "mode_name", "constraint",
             "stable_from"}
+# Datasets that files of earlier versions do not have.
+NOT_READ |= {"rounding", "growing_unfollowed", "stable_whole"}
 FOR_PAGES = {"event_node", "mode_shape"}
 
 

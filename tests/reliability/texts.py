@@ -1,7 +1,6 @@
 """Scenes with faults in tables and keys: TOML syntax, names, kinds of values, missing keys."""
 
 from good import BLADE, blade, blade_with, family
-from program import PLACE
 
 UNKNOWN_NAMES = [
     blade_with("unknown key of an element", '[[fixed]]\npoint = "blade"\ncoordinate = "y"\n§valu = 1',
@@ -79,11 +78,11 @@ MISSING_KEYS = [
     blade("missing value of a parameter", "{ value = 40.0, unit", "{ unit", "[parameters] omega: expected value =")
     + (("omega  =", "§omega  ="),),
     blade("missing from", "[trace]\nparameter = \"omega\"\nfrom = 100.0", '§[trace]\nparameter = "omega"',
-          "[trace] from: is missing", "--from"),
+          "[trace] from: is missing", "or as an option"),
     blade("missing to", "[trace]\nparameter = \"omega\"\nfrom = 100.0\nto = 5.0",
-          '§[trace]\nparameter = "omega"\nfrom = 100.0', "[trace] to: is missing", "--to"),
+          '§[trace]\nparameter = "omega"\nfrom = 100.0', "[trace] to: is missing", "or as an option"),
     blade("missing traced parameter", '[trace]\nparameter = "omega"', "§[trace]",
-          "[trace] parameter: is missing", "--parameter"),
+          "[trace] parameter: is missing", "name the parameter"),
     family("missing K", "K = [[[1, 0], [0, 2]], [[0, 1], [1, 0]]]", "", "[matrix_family] K: is missing")
     + (("[matrix_family]", "§[matrix_family]"),),
     ("empty file", "", ("[trace]",)),
@@ -125,11 +124,10 @@ TOML = [
     blade("expression without quotes", "drag   = 2.0", "drag   = 2.0 §* 1", "not valid TOML"),
     blade("true with a capital", 'mass = "mass"', "mass = §True", "not valid TOML"),
     blade("key with a letter that needs quotes", "mass   = 50.0", "mass   = 50.0\n§µ = 1", "not valid TOML"),
-    blade("null character", 'title = "Blade"', 'title = "Bl§\0ade"', "not valid TOML", "control character"),
+    blade("null character", 'title = "Blade"', 'title = "Bl\0ade"', "is not a text file", "zero"),
     blade("control character in a text", 'title = "Blade"', 'title = "Bl§\x01ade"', "not valid TOML"),
     blade("bytes that are no UTF-8", 'title = "Blade"', 'title = "B§l\udcffade"', "not valid TOML", "utf-8"),
-    ("scene in UTF-16", PLACE + BLADE.encode("utf-16").decode("utf-8", "surrogateescape"),
-     ("not valid TOML", "utf-8")),
+    ("scene in UTF-16", BLADE.encode("utf-16").decode("utf-8", "surrogateescape"), ("is not a text file", "UTF-8")),
     blade("list of tables after a table", "[[rod]]", "[rod]\nfrom = [0, 0, 0]\n\n§[[rod]]", "not valid TOML", "rod"),
     blade("table below a number", "mass   = 50.0", "mass   = 50.0\n§mass.unit = 'kg'", "not valid TOML", "dotted key"),
     blade("arrays in arrays without end", 'title = "Blade"', f"title = {'[' * 256}§{'[' * 44}", "not valid TOML", "nested"),

@@ -115,7 +115,7 @@ TRACES = [
     row("no scene", ["trace", "-o", "new.h5"], "SCENE"),
     row("two scenes", ["trace", "scene.toml", "column.toml", "-o", "new.h5"], "column.toml"),
     row("two outputs", [*TRACE, "-o", "newer.h5"], "--output"),
-    row("scene that does not exist", ["trace", "none.toml", "-o", "new.h5"], "none.toml: ", "No such file"),
+    row("scene that does not exist", ["trace", "none.toml", "-o", "new.h5"], "none.toml: ", "no such file"),
     row("scene without a name", ["trace", "", "-o", "new.h5"], "no such file"),
     row("scene that is a folder", ["trace", "folder", "-o", "new.h5"], "folder: "),
     row("scene that is a loci file", ["trace", "loci.h5", "-o", "new.h5"], "loci.h5: is an HDF5 file, no scene"),
@@ -173,7 +173,7 @@ TRACES = [
 
 EXPLANATIONS = [
     row("explain without a scene", ["explain"], "SCENE"),
-    row("explain of a missing scene", ["explain", "none.toml"], "none.toml: ", "No such file"),
+    row("explain of a missing scene", ["explain", "none.toml"], "none.toml: ", "no such file"),
     row("explain of a folder", ["explain", "folder"], "folder: "),
     row("explain of loci", ["explain", "loci.h5"], "loci.h5: is an HDF5 file, no scene"),
     row("explain of a parameter named like a dataset", ["explain", "mode.toml"], "mode.toml:", "cannot be called 'mode'",

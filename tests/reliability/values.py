@@ -87,7 +87,7 @@ def events(name, lines, *fragments):
 
 
 SYNTAX = [
-    coefficient("two operators", "2 ** drag", "at character 4:", "unexpected '*'"),
+    coefficient("two operators", "2 ** drag", "at character 3:", "'^'"),
     coefficient("operator at the end", "2 * ", "at character", "expression ends where a number"),
     coefficient("operator alone", "/", "at character 1:", "unexpected '/'"),
     coefficient("nothing but spaces", "  ", "expression ends where a number"),
@@ -256,7 +256,7 @@ TRACE = [
     blade("traced parameter that is a point", 'parameter = "omega"', '§parameter = "blade"',
           "[trace] parameter: no parameter is called 'blade'", "known: omega, mass, length, drag"),
     blade("scene without a trace", '[trace]\nparameter = "omega"\nfrom = 100.0\nto = 5.0', "", "[trace] from: is missing",
-          "--from"),
+          "or as an option"),
 ]
 
 EVENTS = [

@@ -16,7 +16,7 @@ speed = {{ value = 3000, unit = "rpm" }}
 parameter = "speed"
 from = 500
 to = 9000
-modes = 4
+modes = {modes}
 [events]
 harmonics = 1
 excitation = "speed"
@@ -38,6 +38,7 @@ node = [1, 7]
 {bearing}
 """
 
+MODES = 4
 PARAMETERS = """
 turn = { value = 9000, unit = "rpm" }
 u = "speed / turn"
@@ -68,7 +69,7 @@ def table(rows):
 
 
 def with_table(more="", parameters=""):
-    return SCENE.format(bearing='table = "bearing.csv"' + more, parameters=parameters)
+    return SCENE.format(modes=MODES, bearing='table = "bearing.csv"' + more, parameters=parameters)
 
 
 class BearingTable(RotorTest):
@@ -77,19 +78,24 @@ class BearingTable(RotorTest):
         return self.trace_text(with_table(), output=f"{rows}.h5", tolerance=1e-9)
 
     def closed(self):
-        return self.trace_text(SCENE.format(bearing=EXPRESSIONS, parameters=PARAMETERS), output="closed.h5", tolerance=1e-9)
+        return self.trace_text(SCENE.format(modes=MODES, bearing=EXPRESSIONS, parameters=PARAMETERS), output="closed.h5", tolerance=1e-9)
+
+    def chosen(self, file, places):
+        """The eigenvalues of the chosen modes, places x modes."""
+        found = {(p, mode): s for p, mode, s in self.eval_rows(file, places)}
+        return np.array([[found[p, f"mode {i + 1}"] for i in range(MODES)] for p in places])
 
     def test_stated_errors_hold_and_fall_with_more_rows(self):
-        """The true error against the closed form is below what `interpolation_error` says on the step, for each mode."""
+        """The true error against the closed form is below what `interpolation_error` says on the step, for each chosen mode."""
         exact, worst = self.closed(), []
         for rows in (5, 8, 13):
             file = self.traced(rows)
             with h5py.File(file) as loci:
-                nodes, stated = loci["speed"][:], loci["interpolation_error"][:]
+                nodes, stated = loci["speed"][:], loci["interpolation_error"][:, :MODES]
             largest = 0.0
             for step in range(len(nodes) - 1):
                 places = np.linspace(nodes[step], nodes[step + 1], 7)[1:-1]
-                for one, other in zip(self.spectra(file, places), self.spectra(exact, places)):
+                for one, other in zip(self.chosen(file, places), self.chosen(exact, places)):
                     errors = np.abs(one - other)
                     self.assertTrue((errors <= stated[step] + 2e-9 * np.abs(other)).all(), (rows, step, errors, stated[step]))
                     largest = max(largest, (errors / np.abs(other)).max())

@@ -12,6 +12,7 @@ from rotor_test_case import RotorTest
 
 OMEGA, RADIUS, DENSITY = 40.0, 5.0, 1.225
 AREA = np.pi * RADIUS**2
+BENDING = 1e3  # rad/s: above the lowest modes in bending and torsion, below those of stretching
 
 
 def without_tables(text, *names):
@@ -28,9 +29,10 @@ class HingelessRotor(RotorTest):
         return self.trace_text(text, "--no-certify", *options, tolerance=tolerance)
 
     def flutter(self, text):
-        """Thrusts between which the lag grows, and the frequencies there."""
+        """Thrusts between which the lag grows, and the frequencies there. Stretching modes, without damping of their own, may
+        grow, too."""
         events = self.special_points(self.traced(text), "flutter")
-        return [(event[0], event[1].imag) for event in events]
+        return [(event[0], event[1].imag) for event in events if abs(event[1]) < BENDING]
 
     def test_frequencies_of_the_blade_in_vacuo(self):
         """Those that Hodges & Ormiston's blade has, per revolution."""
@@ -70,7 +72,7 @@ class HingelessRotor(RotorTest):
         self.write("scene.toml", text)
         self.assertEqual(self.run_program("trace", "scene.toml", "-o", "held.h5", "--no-certify").returncode, 0)
         (held,) = self.spectra("held.h5", [values["inflow"]])
-        self.assert_same_spectrum(held, expected, 1e-5)
+        self.assert_same_spectrum(held[abs(held) < BENDING], expected[abs(expected) < BENDING], 1e-5)
 
     def test_flutter_converges_with_elements(self):
         found = [self.flutter(edited(self.scene_text(), "elements     = 6", f"elements = {n}")) for n in (4, 6, 9)]

@@ -62,6 +62,8 @@ struct LociFile : RecordedPath {
 
   /// A root attribute; throws InputError if the file lacks it.
   const std::string& attribute(const std::string& name) const;
+  /// The number that a root attribute holds; throws InputError if it is none.
+  double number(const std::string& name) const;
 
   /// The stored point nearest to a parameter value; the file must contain points.
   std::size_t nearest_node(double parameter_value) const;

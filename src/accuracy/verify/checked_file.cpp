@@ -76,7 +76,7 @@ std::string CheckedFile::mode_at(Eigen::Index mode, double p) const {
 }
 
 CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup) {
-  CheckedFile file{loci, setup, {setup.options.tolerance, std::stod(loci.attribute("reference"))}, {}};
+  CheckedFile file{loci, setup, {setup.options.tolerance, loci.number("reference")}, {}};
   for (const LociEvent& event : loci.events) file.events.push_back(event_of(loci, event));
   return file;
 }

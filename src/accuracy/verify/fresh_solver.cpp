@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "continuation/point/refined_spectrum.hpp"
 #include "core/positive_or_one.hpp"
 #include "eigentrail/accuracy/reference.hpp"
 #include "eigentrail/modes/spectrum.hpp"
@@ -84,6 +85,18 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
   return guess;
 }
 
+/// The eigenvalues at a point by QZ, refined if asked for; empty if they cannot be computed.
+std::vector<Complex> eigenvalues_of(const PathPoint& point, bool refined) {
+  if (point.status != PointStatus::computed) return {};
+  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  if (spectrum.status != SpectrumStatus::complete) return {};
+  const ReducedPencil whole{{point.pencil.M[0]}, {point.pencil.C[0]}, {point.pencil.K[0]}};
+  if (refined) refine(whole, static_cast<int>(spectrum.modes.size()), spectrum);
+  std::vector<Complex> exact;
+  for (const StartingMode& found : spectrum.modes) exact.push_back(found.s);
+  return exact;
+}
+
 bool is_node(const PathPosition& position) {
   return position.t == 0.0 || position.t == 1.0;
 }
@@ -121,22 +134,16 @@ std::vector<Complex> FreshSolver::spectrum_at(const PathPosition& position, cons
     const EquilibriumGuess guess = guess_at(position);
     return large_->beside(s, p, guess.x, guess.lambda);
   }
-  const PathPoint point = point_at(position);
-  if (point.status != PointStatus::computed) return {};
-  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
-  if (spectrum.status != SpectrumStatus::complete) return {};
-  std::vector<Complex> exact;
-  for (const StartingMode& found : spectrum.modes) exact.push_back(found.s);
-  return exact;
+  return eigenvalues_of(point_at(position), false);
 }
 
-std::vector<Complex> FreshSolver::in_extended_precision(const PathPosition& position) const {
+std::vector<Complex> FreshSolver::refined_spectrum_at(const PathPosition& position) const {
   if (large_) return {};
-  const ReferenceSpectrum spectrum =
+  const ReferenceSpectrum reference =
       reference_spectrum(problem_, loci_.parameter_at(position), guess_at(position));
-  if (spectrum.status != ReferenceStatus::converged) return {};
+  if (reference.status != ReferenceStatus::converged) return eigenvalues_of(point_at(position), true);
   std::vector<Complex> exact;
-  for (const ExtendedComplex& s : spectrum.s)
+  for (const ExtendedComplex& s : reference.s)
     exact.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
   return exact;
 }

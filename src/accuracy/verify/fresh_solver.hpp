@@ -26,9 +26,10 @@ class FreshSolver {
   /// Exact eigenvalues at a place where the file has the values s; empty if they cannot be computed.
   std::vector<Complex> spectrum_at(const PathPosition& position, const ComplexVector& s);
 
-  /// The same in extended precision: where eigenvalues are close, or the entries of the matrices of very
-  /// different size, QZ itself is off by more than a trace. Empty where that cannot be had.
-  std::vector<Complex> in_extended_precision(const PathPosition& position) const;
+  /// The same refined, in extended precision or, where that cannot be had, by Newton's method: where
+  /// eigenvalues are close, or the entries of the matrices of very different size, QZ itself is off by more
+  /// than a trace. Empty of a large model.
+  std::vector<Complex> refined_spectrum_at(const PathPosition& position) const;
 
  private:
   EquilibriumGuess guess_at(const PathPosition& position) const;

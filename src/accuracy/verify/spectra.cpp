@@ -72,7 +72,7 @@ class SpectrumComparison {
   Comparison result(const std::string& places) && {
     std::string text = places + ", each solved afresh " +
                        (solver_.is_of_large_model() ? "by shift-invert of the whole model" : "by QZ");
-    if (refined_ > 0) text += ", at " + std::to_string(refined_) + " of them refined in extended precision";
+    if (refined_ > 0) text += ", at " + std::to_string(refined_) + " of them refined";
     if (solved_ > 0)
       text += ": worst discrepancy " + few_digits(worst_) + ", " + of_tolerance(worst_) + ": " + worst_place_;
     else
@@ -92,7 +92,7 @@ class SpectrumComparison {
   }
 
   Vector refined(const PathPosition& place, const ComplexVector& s, Vector off) {
-    const std::vector<Complex> exact = solver_.in_extended_precision(place);
+    const std::vector<Complex> exact = solver_.refined_spectrum_at(place);
     if (exact.empty()) return off;
     ++refined_;
     return discrepancies(file_.loci, place, s, exact, file_.accuracy);

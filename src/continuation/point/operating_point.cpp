@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/tracks/starting_tracks.hpp"
+#include "continuation/point/refined_spectrum.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -14,7 +14,6 @@
 #include "eigentrail/modes/energy_shares.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/participation.hpp"
-#include "eigentrail/modes/regroup.hpp"
 #include "eigentrail/modes/rotor_names.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
@@ -22,16 +21,13 @@
 namespace eigentrail {
 namespace {
 
-/// Magnitude below which an eigenvalue counts as zero, as a share of the scale of the pencil.
-constexpr double zero_share = 1e-9;
-
 /// An eigenvalue s with its right vector, and what follows from the left one.
 class ModeAtPoint {
  public:
   /// `z` is that of QZ.
   ModeAtPoint(const ReducedPencil& pencil, Complex s, const ComplexVector& z, double scale)
       : M_(pencil.M[0]), C_(pencil.C[0]), K_(pencil.K[0]), s_(s), z_(z.normalized()) {
-    const double s_ref = zero_share * scale;
+    const double s_ref = share_that_is_zero * scale;
     left_ = eigenvector_near(M_.transpose(), C_.transpose(), K_.transpose(), s_, s_ref);  // y^T P(s) = 0
     slope_ = 2.0 * s_ * (M_ * z_) + C_ * z_;
     const Complex product = left_.transpose() * slope_;
@@ -55,35 +51,6 @@ class ModeAtPoint {
   ComplexVector z_, left_, slope_;
   double condition_ = 0.0, backward_error_ = 0.0;
 };
-
-/// Refines the first `n` eigenvalues of a spectrum by Newton's method, close ones together: QZ is accurate
-/// relative to the largest ones only. Returns their errors by rounding, 1/s.
-std::vector<double> refine(const ReducedPencil& pencil, int n, Spectrum& spectrum) {
-  const double s_ref = zero_share * spectrum.scale;
-  std::vector<double> rounding(static_cast<std::size_t>(n), std::numeric_limits<double>::infinity());
-  ModeCounts counts;
-  for (const StartingGroup& group : starting_groups(pencil, spectrum.modes, n, s_ref)) {
-    const InvariantPair pair = correct_pair(PencilAtPoint(pencil.of(group.pair.part)), group.pair, s_ref,
-                                            CorrectorOptions(), counts);
-    if (pair.status != PairStatus::converged) continue;
-    const ComplexVector roots = in_order_of(group.roots, pair_eigenvalues(pair));
-    const Vector errors = eigenvalue_rounding(pair, roots, Thresholds().rounding.entries);
-    for (Eigen::Index i = 0; i < roots.size(); ++i) {
-      const int mode = group.modes[static_cast<std::size_t>(i)];
-      if (mode < 0) continue;
-      spectrum.modes[static_cast<std::size_t>(mode)].s =
-          roots[i].imag() < 0.0 ? std::conj(roots[i]) : roots[i];
-      rounding[static_cast<std::size_t>(mode)] = errors[i];
-    }
-  }
-  // A mode of a copy is behind the one that it equals.
-  for (std::size_t i = 1; i < rounding.size(); ++i) {
-    if (spectrum.modes[i].copy == 0) continue;
-    spectrum.modes[i].s = spectrum.modes[i - 1].s;
-    rounding[i] = rounding[i - 1];
-  }
-  return rounding;
-}
 
 /// Names the modes by their kinetic energy, where the masses are known.
 void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector<OperatingMode>& modes) {

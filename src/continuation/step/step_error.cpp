@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "continuation/step/least_magnitude.hpp"
 #include "continuation/step/shared_basis.hpp"
@@ -30,13 +31,19 @@ bool is_short_part(const PathProblem& problem, const Step& step) {
 /// instead.
 constexpr double beside_meeting = 0.1;
 
-/// Estimated error of p on a step / accepted error.
+/// Error of p by rounding, in units of its last place: of the equilibrium that it is solved for with, and of
+/// the sums of its interpolant.
+constexpr double rounding_of_parameter = 8.0;
+
+/// Estimated error of p on a step / accepted error, which is at least that by rounding.
 double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
   const auto row = [&](const PathNode& node) {
     return ComplexMatrix(node.path.parameters.row(frame.range.traced).cast<Complex>());
   };
+  const double rounding = rounding_of_parameter * std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(step.left->p), std::abs(step.right.p));
   return HermiteInterpolant(step.h, row(*step.left), row(step.right)).error_without_last()[0] /
-         (parameter_accuracy * tolerance * frame.range.length());
+         std::max(parameter_accuracy * tolerance * frame.range.length(), rounding);
 }
 
 /// Largest of `root error(t) / accepted error(t)` at places of a step where errors are largest, for errors of

@@ -14,7 +14,8 @@ namespace eigentrail {
 namespace {
 
 /// Relative size below which a quantity counts as zero:
-///  - singular values of P(s) = s^2 M + s C + K relative to the largest one: their vectors span the kernel;
+///  - singular values of P(s) = s^2 M + s C + K relative to |s|^2 |M| + |s| |C| + |K|: their vectors span the
+///  kernel;
 ///  - the determinant of Y* P'(s) Z, of the kernel's vectors, relative to |P'(s)|: s is defective;
 ///  - how much the derivatives of the members of a semisimple eigenvalue differ, relative to their size: the
 ///  members
@@ -36,8 +37,10 @@ struct ModeVectors {
 ModeVectors vectors_of(const ReducedPencil& pencil, Complex s) {
   const ComplexMatrix P = s * s * pencil.M[0] + s * pencil.C[0] + pencil.K[0];
   const ComplexMatrix derivative = 2.0 * s * pencil.M[0] + pencil.C[0].cast<Complex>();
+  const double scale =
+      std::norm(s) * pencil.M[0].norm() + std::abs(s) * pencil.C[0].norm() + pencil.K[0].norm();
   const SingularVectors<ComplexMatrix> svd = singular_vectors(P);
-  const Eigen::Index m = std::max<Eigen::Index>(1, (svd.values.array() <= multiple * svd.values[0]).count());
+  const Eigen::Index m = std::max<Eigen::Index>(1, (svd.values.array() <= multiple * scale).count());
   const ComplexMatrix Z = svd.V.rightCols(m), Y = svd.U.rightCols(m);
   return {s, Z, Y, Y.adjoint() * derivative * Z, derivative.norm()};
 }

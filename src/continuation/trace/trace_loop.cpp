@@ -428,7 +428,8 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Newcomers needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
   const int guests = number_growing_guests(problem_, step.right, state_.origin.node, state_.numbers);
   if (guests +
-          follow_back(problem_, needed.tracks, step.h, state_.origin.node, state_.numbers, result.counts) >
+          follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node, state_.numbers,
+                      result.counts) >
       0) {
     number_modes(state_, state_.origin.node);
     state_.origin.tried.reset();

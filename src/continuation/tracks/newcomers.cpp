@@ -7,6 +7,7 @@
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/recognition.hpp"
+#include "continuation/tracks/silent_partners.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
@@ -47,6 +48,15 @@ bool dismiss_unneeded(const PathProblem& problem, const IsWanted& is_wanted, Tra
     any = any || mode >= 0;
   }
   return any;
+}
+
+/// A newcomer in a block with the mode that nobody follows and that it meets on a step of length h, or near
+/// it; empty if there is none.
+std::optional<Track> with_partner(const PathProblem& problem, const Track& newcomer, double h, double reach,
+                                  PathNode node, RunCounts& counts) {
+  node.tracks.push_back(newcomer);
+  if (!join_unfollowed(problem, node, node.tracks.size() - 1, h, reach, counts)) return std::nullopt;
+  return std::move(node.tracks.back());
 }
 
 /// A newcomer at the left end of the step of length h behind which it was noticed; empty if it is not
@@ -101,12 +111,17 @@ Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const 
   return found;
 }
 
-int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h, PathNode& left,
-                ModeNumbers& numbers, RunCounts& counts) {
+int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h,
+                const PathNode& right, double reach, PathNode& left, ModeNumbers& numbers,
+                RunCounts& counts) {
   int added = 0;
   for (const Track& newcomer : newcomers) {
-    if (auto track = at_left_end(problem, newcomer, h, left, counts))
-      added += add(std::move(*track), left, numbers);
+    auto track = at_left_end(problem, newcomer, h, left, counts);
+    if (!track) {
+      if (const auto block = with_partner(problem, newcomer, -h, reach, right, counts))
+        track = at_left_end(problem, *block, h, left, counts);
+    }
+    if (track) added += add(std::move(*track), left, numbers);
   }
   return added;
 }

@@ -22,10 +22,11 @@ struct Newcomers {
 Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
                     RunCounts& counts);
 
-/// Follows the newcomers of a step back to its left end `left`. Those that are found there are added to it,
-/// with new numbers: the step has to be taken again, with them. Returns how many modes were added.
-int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h, PathNode& left,
-                ModeNumbers& numbers, RunCounts& counts);
+/// Follows the newcomers of a step of length h from its end `right` back to its end `left`, alone, or in a
+/// block with a mode that they meet on the way or within `reach` steps. Those that are found there are added
+/// to it, with new numbers: the step has to be taken again, with them. Returns how many modes were added.
+int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h,
+                const PathNode& right, double reach, PathNode& left, ModeNumbers& numbers, RunCounts& counts);
 
 /// Gives numbers to the guests of a step's blocks that grow at its right end, at the left end: the step has
 /// to be taken again, with them. `right`, `left`: its ends, with the same tracks. Returns how many there are.
