@@ -427,13 +427,19 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   TraceResult& result = state_.result;
   Newcomers needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
   const int guests = number_growing_guests(problem_, step.right, state_.origin.node, state_.numbers);
-  if (guests +
-          follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node, state_.numbers,
-                      result.counts) >
+  if (guests + follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node,
+                           state_.numbers, result.counts) >
       0) {
     number_modes(state_, state_.origin.node);
     state_.origin.tried.reset();
     return true;  // the step is taken again, with them
+  }
+  // Where they cannot be followed back, the place at which they begin is found to the tolerance.
+  if (!needed.tracks.empty() && std::abs(step.h) > options_.tolerance * state_.frame.coordinate_range()) {
+    ++result.rejections.mode_lost;
+    state_.control.reject(std::abs(step.h), INFINITY);
+    state_.origin.tried.reset();
+    return true;
   }
   settle_events(landed);
   const PathStep stored = with_copies(state_.copies, stored_step(problem_, step, certified));
