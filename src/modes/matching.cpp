@@ -41,16 +41,18 @@ Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const Sys
 
 std::vector<int> optimal_assignment(const Matrix& cost) {
   const int n = static_cast<int>(cost.rows());
-  if (cost.cols() != n || !cost.allFinite()) {
-    throw std::invalid_argument("optimal_assignment: expected a square matrix of finite costs");
+  const int columns = static_cast<int>(cost.cols());
+  if (columns < n || !cost.allFinite()) {
+    throw std::invalid_argument(
+        "optimal_assignment: expected finite costs, at least as many columns as rows");
   }
   constexpr double unreached = std::numeric_limits<double>::infinity();
   // Row 0 and column 0 are auxiliary; row_of[j] is the row assigned to column j.
-  std::vector<double> row_price(n + 1, 0.0), column_price(n + 1, 0.0);
-  std::vector<int> row_of(n + 1, 0), previous(n + 1, 0);
+  std::vector<double> row_price(n + 1, 0.0), column_price(columns + 1, 0.0);
+  std::vector<int> row_of(columns + 1, 0), previous(columns + 1, 0);
   for (int row = 1; row <= n; ++row) {
-    std::vector<double> distance(n + 1, unreached);
-    std::vector<bool> visited(n + 1, false);
+    std::vector<double> distance(columns + 1, unreached);
+    std::vector<bool> visited(columns + 1, false);
     row_of[0] = row;
     int column = 0;
     do {
@@ -58,7 +60,7 @@ std::vector<int> optimal_assignment(const Matrix& cost) {
       const int current = row_of[column];
       double step = unreached;
       int next = 0;
-      for (int j = 1; j <= n; ++j) {
+      for (int j = 1; j <= columns; ++j) {
         if (visited[j]) continue;
         const double reduced = cost(current - 1, j - 1) - row_price[current] - column_price[j];
         if (reduced < distance[j]) {
@@ -72,7 +74,7 @@ std::vector<int> optimal_assignment(const Matrix& cost) {
       }
       if (next == 0)
         throw std::invalid_argument("optimal_assignment: costs too far apart for their differences");
-      for (int j = 0; j <= n; ++j) {
+      for (int j = 0; j <= columns; ++j) {
         if (visited[j]) {
           row_price[row_of[j]] += step;
           column_price[j] -= step;
@@ -85,7 +87,9 @@ std::vector<int> optimal_assignment(const Matrix& cost) {
     for (; column != 0; column = previous[column]) row_of[column] = row_of[previous[column]];
   }
   std::vector<int> column_of(n);
-  for (int j = 1; j <= n; ++j) column_of[row_of[j] - 1] = j - 1;
+  for (int j = 1; j <= columns; ++j) {
+    if (row_of[j] != 0) column_of[row_of[j] - 1] = j - 1;
+  }
   return column_of;
 }
 

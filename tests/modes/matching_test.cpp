@@ -186,8 +186,20 @@ TEST(OptimalAssignment, OfNothingIsEmpty) {
   EXPECT_TRUE(optimal_assignment(Matrix(0, 0)).empty());
 }
 
-TEST(OptimalAssignment, RefusesCostsThatAreNotSquareOrNotFinite) {
-  EXPECT_THROW(optimal_assignment(Matrix::Zero(2, 3)), std::invalid_argument);
+TEST(OptimalAssignment, LeavesColumnsWithoutARow) {
+  // As with rows of zeros for the columns that are left.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    Matrix square = Matrix::Zero(7, 7);
+    square.topRows(4) = Matrix::NullaryExpr(4, 7, [&] { return uniform(random); });
+    std::vector<int> rows = optimal_assignment(square);
+    rows.resize(4);
+    EXPECT_EQ(optimal_assignment(square.topRows(4)), rows);
+  }
+}
+
+TEST(OptimalAssignment, RefusesCostsWithTooFewColumnsOrThatAreNotFinite) {
   EXPECT_THROW(optimal_assignment(Matrix::Zero(3, 2)), std::invalid_argument);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {

@@ -13,8 +13,9 @@ namespace eigentrail {
 Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const SystemMatrix& M);
 
 /// One-to-one assignment of rows to columns with the least total cost (Kuhn 1955, in the shortest-path form
-/// of Jonker & Volgenant 1987). Returns the column of every row. Cost O(n^3). Throws std::invalid_argument
-/// unless `cost` is square and finite, or if differences of costs overflow.
+/// of Jonker & Volgenant 1987). Returns the column of every row. Cost O(rows^2 columns). Throws
+/// std::invalid_argument unless `cost` is finite and has at least as many columns as rows, or if differences
+/// of costs overflow.
 std::vector<int> optimal_assignment(const Matrix& cost);
 
 }  // namespace eigentrail

@@ -112,8 +112,8 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
       }
     }
   }
-  const auto n = static_cast<Eigen::Index>(std::max(tracked.size(), spectrum.modes.size()));
-  Matrix cost = Matrix::Constant(n, n, unrelated);
+  const auto n = static_cast<Eigen::Index>(tracked.size());
+  Matrix cost = Matrix::Constant(n, std::max(n, static_cast<Eigen::Index>(spectrum.modes.size())), unrelated);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     for (std::size_t j = 0; j < spectrum.modes.size(); ++j) {
       if (spectrum.modes[j].part != parts[i] || spectrum.modes[j].copy > 0) continue;

@@ -117,6 +117,23 @@ bool has_eigenvalues(const Track& block, const ComplexVector& known) {
   return ((block.roots - known).cwiseAbs().array() <= errors.array()).all();
 }
 
+/// The largest error of the eigenvalues of a track by rounding, relative to them.
+double relative_rounding(const PathProblem& problem, const Track& track) {
+  const Vector errors = rounding_of_roots(track, problem.thresholds.rounding);
+  return errors.cwiseQuotient(track.roots.cwiseAbs().cwiseMax(problem.reference(track.pair.chart)))
+      .maxCoeff();
+}
+
+/// Whether rounding spoils a block: its vectors are nearly dependent, or its eigenvalues of so different size
+/// that they are lost in the coefficients of its polynomial. Bounds of rounding may be too large by the
+/// factor with which they are multiplied.
+bool loses_accuracy(const PathProblem& problem, const PathNode& node, const std::vector<std::size_t>& members,
+                    const Track& block) {
+  double alone = 0.0;
+  for (const std::size_t i : members) alone = std::max(alone, relative_rounding(problem, node.tracks[i]));
+  return relative_rounding(problem, block) > problem.thresholds.rounding.entries * alone;
+}
+
 }  // namespace
 
 bool join(const PathProblem& problem, PathNode& node, std::size_t index, const std::vector<Partner>& partners,
@@ -165,6 +182,7 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
   if (!settles(join_pairs(parts, make_real)) &&
       !settles(subspace_of(node, *parts.front(), values, make_real)))
     return false;
+  if (loses_accuracy(problem, node, members, joined)) return false;
   joined.met = std::move(met);
   joined.inseparable = inseparable(node, members);
   if (departure) {
