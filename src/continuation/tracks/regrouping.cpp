@@ -117,21 +117,31 @@ bool has_eigenvalues(const Track& block, const ComplexVector& known) {
   return ((block.roots - known).cwiseAbs().array() <= errors.array()).all();
 }
 
-/// The largest error of the eigenvalues of a track by rounding, relative to them.
-double relative_rounding(const PathProblem& problem, const Track& track) {
-  const Vector errors = rounding_of_roots(track, problem.thresholds.rounding);
-  return errors.cwiseQuotient(track.roots.cwiseAbs().cwiseMax(problem.reference(track.pair.chart)))
-      .maxCoeff();
+/// Whether the eigenvalues of tracks differ by more than their errors by rounding.
+bool are_resolved(const PathProblem& problem, const std::vector<const Track*>& tracks) {
+  std::vector<Complex> roots;
+  std::vector<double> errors;
+  for (const Track* track : tracks) {
+    const Vector own = rounding_of_roots(*track, problem.thresholds.rounding);
+    roots.insert(roots.end(), track->roots.begin(), track->roots.end());
+    errors.insert(errors.end(), own.begin(), own.end());
+  }
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::abs(roots[i] - roots[j]) <= errors[i] + errors[j]) return false;
+    }
+  }
+  return true;
 }
 
-/// Whether rounding spoils a block: its vectors are nearly dependent, or its eigenvalues of so different size
-/// that they are lost in the coefficients of its polynomial. Bounds of rounding may be too large by the
-/// factor with which they are multiplied.
-bool loses_accuracy(const PathProblem& problem, const PathNode& node, const std::vector<std::size_t>& members,
-                    const Track& block) {
-  double alone = 0.0;
-  for (const std::size_t i : members) alone = std::max(alone, relative_rounding(problem, node.tracks[i]));
-  return relative_rounding(problem, block) > problem.thresholds.rounding.entries * alone;
+/// Whether the eigenvalues of a block cannot be told apart because of rounding, those of its members can: its
+/// vectors are nearly dependent, or the eigenvalues of so different size that they are lost in the
+/// coefficients of its polynomial.
+bool hides_members(const PathProblem& problem, const PathNode& node, const std::vector<std::size_t>& members,
+                   const Track& block) {
+  std::vector<const Track*> alone;
+  for (const std::size_t i : members) alone.push_back(&node.tracks[i]);
+  return !are_resolved(problem, {&block}) && are_resolved(problem, alone);
 }
 
 }  // namespace
@@ -182,7 +192,7 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
   if (!settles(join_pairs(parts, make_real)) &&
       !settles(subspace_of(node, *parts.front(), values, make_real)))
     return false;
-  if (loses_accuracy(problem, node, members, joined)) return false;
+  if (hides_members(problem, node, members, joined)) return false;
   joined.met = std::move(met);
   joined.inseparable = inseparable(node, members);
   if (departure) {
