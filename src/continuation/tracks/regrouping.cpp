@@ -5,7 +5,9 @@
 #include <iterator>
 #include <numeric>
 
+#include "continuation/step/step_error.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
+#include "continuation/tracks/members.hpp"
 #include "continuation/tracks/strands.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -117,8 +119,8 @@ bool has_eigenvalues(const Track& block, const ComplexVector& known) {
   return ((block.roots - known).cwiseAbs().array() <= errors.array()).all();
 }
 
-/// Whether the eigenvalues of tracks differ by more than their errors by rounding.
-bool are_resolved(const PathProblem& problem, const std::vector<const Track*>& tracks) {
+/// Whether those eigenvalues of tracks that are far apart differ by more than their errors by rounding.
+bool distant_are_resolved(const PathProblem& problem, const std::vector<const Track*>& tracks) {
   std::vector<Complex> roots;
   std::vector<double> errors;
   for (const Track* track : tracks) {
@@ -128,20 +130,23 @@ bool are_resolved(const PathProblem& problem, const std::vector<const Track*>& t
   }
   for (std::size_t i = 0; i < roots.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (std::abs(roots[i] - roots[j]) <= errors[i] + errors[j]) return false;
+      const double distance = std::abs(roots[i] - roots[j]);
+      const bool are_distant =
+          distance > least_relative_gap * std::max(std::abs(roots[i]), std::abs(roots[j]));
+      if (are_distant && distance <= errors[i] + errors[j]) return false;
     }
   }
   return true;
 }
 
-/// Whether the eigenvalues of a block cannot be told apart because of rounding, those of its members can: its
-/// vectors are nearly dependent, or the eigenvalues of so different size that they are lost in the
-/// coefficients of its polynomial.
+/// Whether eigenvalues of a block that are far apart cannot be told apart because of rounding, those of its
+/// members can: its vectors are nearly dependent, or the eigenvalues of so different size that they are lost
+/// in the coefficients of its polynomial.
 bool hides_members(const PathProblem& problem, const PathNode& node, const std::vector<std::size_t>& members,
                    const Track& block) {
   std::vector<const Track*> alone;
   for (const std::size_t i : members) alone.push_back(&node.tracks[i]);
-  return !are_resolved(problem, {&block}) && are_resolved(problem, alone);
+  return !distant_are_resolved(problem, {&block}) && distant_are_resolved(problem, alone);
 }
 
 }  // namespace

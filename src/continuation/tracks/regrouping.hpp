@@ -8,8 +8,8 @@
 namespace eigentrail {
 
 /// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
-/// change the node, if the block does not converge to the eigenvalues of its members, would know them much
-/// less accurately because of rounding, or would have more than `largest`.
+/// change the node, if the block does not converge to the eigenvalues of its members, if rounding would hide
+/// some in it that are far apart, or if it would have more than `largest`.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,
           RunCounts& counts, Eigen::Index largest = largest_block);
 
