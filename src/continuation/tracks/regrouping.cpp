@@ -121,6 +121,7 @@ bool has_eigenvalues(const Track& block, const ComplexVector& known) {
 
 /// Whether those eigenvalues of tracks that are far apart differ by more than their errors by rounding.
 bool distant_are_resolved(const PathProblem& problem, const std::vector<const Track*>& tracks) {
+  const double reference = problem.reference(tracks.front()->pair.chart);
   std::vector<Complex> roots;
   std::vector<double> errors;
   for (const Track* track : tracks) {
@@ -131,8 +132,8 @@ bool distant_are_resolved(const PathProblem& problem, const std::vector<const Tr
   for (std::size_t i = 0; i < roots.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double distance = std::abs(roots[i] - roots[j]);
-      const bool are_distant =
-          distance > least_relative_gap * std::max(std::abs(roots[i]), std::abs(roots[j]));
+      const double scale = std::max({std::abs(roots[i]), std::abs(roots[j]), reference});
+      const bool are_distant = distance > least_relative_gap * scale;
       if (are_distant && distance <= errors[i] + errors[j]) return false;
     }
   }
