@@ -81,7 +81,7 @@ int run_accuracy(AccuracyArguments& arguments) {
   }
   if (!arguments.quiet) print_study(setup, study);
   if (arguments.output) {
-    write_study(*arguments.output, setup, options, study);
+    write_durably(*arguments.output, {study_file(setup, options, study)}, existing(arguments.force));
     if (!arguments.quiet) std::printf("wrote %s\n", arguments.output->c_str());
   }
   return done;

@@ -132,7 +132,7 @@ int finish_boundary(const BoundarySetup& setup, const std::vector<std::string>& 
         ": no line of the window could be begun; choose another range, or another starting position; " +
         result.message);
   }
-  write_boundaries(output.path, setup, result);
+  write_durably(output.path, {boundary_file(setup, result)}, existing(output.force));
   if (!output.quiet) {
     print_summary(setup, result);
     std::printf("wrote %s\n", output.path.c_str());

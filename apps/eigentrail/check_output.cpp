@@ -19,7 +19,7 @@ void check_output(const std::string& path, bool force, const OtherOutput& output
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw InputError(path + ": is a folder; give the name of a file");
-  if (std::filesystem::exists(path, error)) {
+  if (std::filesystem::exists(std::filesystem::symlink_status(path, error))) {
     if (!force) throw InputError(path + ": exists already; give another name, or --force to replace it");
     if (!output.replaces(path))
       throw InputError(path + ": is no readable " + output.name + "; --force replaces nothing else");

@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "eigentrail/store/output_file.hpp"
+
 namespace eigentrail::app {
 
 /// The format of an HDF5 output file.
@@ -23,5 +25,10 @@ struct OtherOutput {
 /// same format.
 void check_output(const std::string& path, bool force, const OutputFormat& format);
 void check_output(const std::string& path, bool force, const OtherOutput& output);
+
+/// What writing does to a file that is there.
+inline Existing existing(bool force) {
+  return force ? Existing::replace : Existing::keep;
+}
 
 }  // namespace eigentrail::app

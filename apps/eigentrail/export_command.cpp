@@ -87,7 +87,7 @@ void write_json(const LociFile& loci, const std::vector<ExportTable>& tables,
       {"format", "eigentrail-export"}, {"parameter", loci.parameter}, {"unit", loci.parameter_unit}};
   for (const ExportTable& table : tables) data[table.name] = json_of(table);
   const std::string text = data.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  write_durably(arguments.output, {text});
+  write_durably(arguments.output, {text}, existing(arguments.force));
   if (!arguments.quiet) std::printf("wrote %s\n", arguments.output.c_str());
 }
 
@@ -107,7 +107,7 @@ void write_csv(const std::vector<ExportTable>& tables, const ExportArguments& ar
     check_file(path_of(table), arguments.force,
                [&table](const std::string& path) { return is_table(path, table); });
   for (const ExportTable& table : tables) {
-    write_durably(path_of(table), {csv_text(table)});
+    write_durably(path_of(table), {csv_text(table)}, existing(arguments.force));
     if (!arguments.quiet)
       std::printf("wrote %s (%zu row%s)\n", path_of(table).c_str(), table.rows.size(),
                   table.rows.size() == 1 ? "" : "s");

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 
 #include "commands.hpp"
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
 
@@ -30,6 +32,8 @@ std::string file_name(std::string title) {
 
 int run_import(const Importer& format, const ImportArguments& arguments) {
   const Imported imported = format.read({arguments.files, arguments.options});
+  if (std::filesystem::path(arguments.name).filename() != arguments.name || arguments.name == "..")
+    throw InputError("--name " + arguments.name + ": expected a name without folders; -o names the folder");
   std::string name = arguments.name.empty() ? common_name(arguments.files) : arguments.name;
   if (name.empty()) name = file_name(imported.title);
   const std::string scene = write_import(imported, arguments.folder, name, arguments.force);

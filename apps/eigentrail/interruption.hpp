@@ -6,7 +6,7 @@ namespace eigentrail::app {
 
 /// During the lifetime of an object the first signal is recorded. A second one ends the program at once. If
 /// the computation does not notice the signal within a second, because a single step takes longer, the
-/// program ends with a message: what it has saved stays.
+/// program ends with a message, which says whether anything was saved.
 class Interruption {
  public:
   Interruption();
@@ -17,6 +17,9 @@ class Interruption {
   /// Number of the signal that has arrived; 0: none.
   int signal() const;
   explicit operator bool() const { return signal() != 0; }
+
+  /// There is an output from which the computation can go on.
+  static void has_saved();
 
   /// To be called when the signal has been noticed: gives the program the time to save.
   void save_in_peace() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -177,6 +178,7 @@ int after_printing(int exit_code) {
 }  // namespace eigentrail::app
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is met as a full disk is
   eigentrail::app::occupy_standard_streams();
   return eigentrail::app::after_printing(eigentrail::app::run_and_report(argc, argv));
 }

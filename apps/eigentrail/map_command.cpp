@@ -129,7 +129,7 @@ int finish_map(const MapSetup& setup, const std::vector<std::string>& lines, con
                  printable(failure(map)).c_str());
     return numbers_failed;
   }
-  write_map(output.path, setup, map);
+  write_durably(output.path, {map_file(setup, map)}, existing(output.force));
   if (!output.quiet) {
     print_summary(setup, map, seconds);
     std::printf("wrote %s\n", output.path.c_str());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <new>
 #include <numbers>
 
 #include "commands.hpp"
@@ -20,7 +21,8 @@ constexpr double known_digits = 1e-12;
 }  // namespace
 
 int report_error(const std::exception& error) {
-  std::fprintf(stderr, "eigentrail: %s\n", printable(error.what()).c_str());
+  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  std::fprintf(stderr, "eigentrail: %s\n", no_memory ? "not enough memory" : printable(error.what()).c_str());
   return dynamic_cast<const InputError*>(&error) != nullptr ? bad_input : numbers_failed;
 }
 

@@ -30,7 +30,7 @@ void check_part_output(const OutputChoice& output) {
 void write_part(const OutputChoice& output, SharedRun run, const Part& part,
                 std::vector<std::string> pieces) {
   const std::size_t computed = pieces.size(), all = run.n_pieces;
-  eigentrail::write_part({output.path, std::move(run), part, std::move(pieces)});
+  eigentrail::write_part({output.path, std::move(run), part, std::move(pieces)}, existing(output.force));
   if (output.quiet) return;
   std::printf("wrote %s: part %d of %d, %zu of %zu pieces; eigentrail merge joins the parts\n",
               output.path.c_str(), part.number, part.count, computed, all);

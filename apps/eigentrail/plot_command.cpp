@@ -92,7 +92,11 @@ std::string package_folder() {
 constexpr int package_missing = 97;
 
 /// Draws, or says which package is missing. Python's own messages would be a traceback.
-constexpr const char* script = R"(import sys
+constexpr const char* script = R"(import mmap, sys
+try:
+    mmap.mmap(-1, 1 << 29).close()
+except OSError:
+    sys.exit("eigentrail: not enough memory to draw: Python needs 512 MB; allow more by ulimit -v")
 try:
     import matplotlib
     from eigentrail import engine, plot
@@ -164,6 +168,7 @@ std::vector<std::string> words(const PlotArguments& arguments) {
     if (!value->empty()) list.push_back(std::string(option) + "=" + *value);
   }
   if (arguments.log) list.emplace_back("--log");
+  if (arguments.force) list.emplace_back("--force");
   return list;
 }
 

@@ -33,7 +33,7 @@ int run_report(const ReportArguments& arguments) {
   check_output(arguments.output, arguments.force, OtherOutput{is_report, "report of eigentrail"});
   check_ending(arguments.output);
   check_can_create(arguments.output);
-  write_report(arguments.files, arguments.output);
+  write_durably(arguments.output, {report_page(arguments.files)}, existing(arguments.force));
   if (!arguments.quiet) {
     std::printf("wrote %s (%.1f MB); open it in a browser\n", arguments.output.c_str(),
                 1e-6 * static_cast<double>(std::filesystem::file_size(arguments.output)));

@@ -26,6 +26,7 @@ struct SweepArguments : SceneArguments {
   OutputChoice output;            ///< a folder
   std::optional<Part> part;
   int jobs = 0;
+  SaveOptions saving;
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 };
 
@@ -94,8 +95,8 @@ void check_folder(const std::string& folder, bool force, const std::vector<std::
 }
 
 /// Writes the index and says how many runs there are.
-int finish_sweep(const std::string& header, const std::vector<std::string>& lines, const std::string& index,
-                 bool quiet) {
+int finish_sweep(const std::string& header, const std::vector<std::string>& lines,
+                 const OutputChoice& output) {
   std::string text = header;
   std::size_t failed = 0;
   std::string first_failure;
@@ -105,8 +106,10 @@ int finish_sweep(const std::string& header, const std::vector<std::string>& line
     if (bytes.front() == '0') continue;
     if (failed++ == 0) first_failure = bytes.substr(1, bytes.find(',') - 1);
   }
-  write_durably(index, {text});
-  if (!quiet) std::printf("wrote %s: %zu runs, %zu of them failed\n", index.c_str(), lines.size(), failed);
+  const std::string& index = output.path;
+  write_durably(index, {text}, existing(output.force));
+  if (!output.quiet)
+    std::printf("wrote %s: %zu runs, %zu of them failed\n", index.c_str(), lines.size(), failed);
   if (failed == 0) return done;
   std::fprintf(stderr, "eigentrail: %zu of %zu runs failed, first run %s; %s has the reasons\n", failed,
                lines.size(), first_failure.c_str(), index.c_str());
@@ -135,10 +138,11 @@ int run_sweep(SweepArguments& arguments, Team& team) {
     part_file.path = (folder / ("part-" + std::to_string(arguments.part->number) + "-of-" +
                                 std::to_string(arguments.part->count) + ".h5"))
                          .string();
-  const std::string index = (folder / "index.csv").string();
+  OutputChoice index = arguments.output;
+  index.path = (folder / "index.csv").string();
   if (team.leads()) {
     check_folder(arguments.output.path, arguments.output.force, numbers, runs.size());
-    arguments.part ? check_part_output(part_file) : check_index(index, arguments.output.force);
+    arguments.part ? check_part_output(part_file) : check_index(index.path, index.force);
   }
   const OptionTexts options(arguments.options.begin(), arguments.options.end());
   const auto workers = team.workers(arguments.jobs);
@@ -152,7 +156,7 @@ int run_sweep(SweepArguments& arguments, Team& team) {
         for (std::size_t k = 0; k < values.size(); ++k)
           settings.push_back(runs.varied()[k].name + "=" + exact_text(values[k]));
         const std::string path = (folder / run_name(number, runs.size())).string();
-        SweepRow row = run_of_sweep(scene, settings, options, path);
+        SweepRow row = run_of_sweep(scene, settings, options, path, arguments.saving);
         row.run = number + 1;
         row.values = values;
         return std::to_string(row.exit_code) + index_line(row);
@@ -163,7 +167,7 @@ int run_sweep(SweepArguments& arguments, Team& team) {
       });
   progress.finish();
   if (!team.leads()) return done;
-  if (!arguments.part) return finish_sweep(index_header(runs.varied()), lines, index, arguments.output.quiet);
+  if (!arguments.part) return finish_sweep(index_header(runs.varied()), lines, index);
   write_part(part_file, shared_run(scene, arguments, runs), *arguments.part, std::move(lines));
   return done;
 }
@@ -174,7 +178,7 @@ int merge_sweep(const SharedRun& run, const std::vector<std::string>& pieces, co
                 Team& team) {
   if (!team.leads()) return done;
   check_index(output.path, output.force);
-  return finish_sweep(run.setting("header").value_or(""), pieces, output.path, output.quiet);
+  return finish_sweep(run.setting("header").value_or(""), pieces, output);
 }
 
 void add_sweep(CLI::App& program, int& exit_code) {
@@ -196,6 +200,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
   command->add_option("--jobs", arguments->jobs, "runs at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
   command->add_flag("--force", arguments->output.force, "replace existing files of the same runs");
+  add_no_lock(*command, arguments->saving);
   command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
   add_trace_options(*command, arguments->options);
   command->footer(
@@ -204,6 +209,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
       "drag");
   command->callback([arguments, output, &exit_code] {
     if (output->count() == 0) arguments->output.path = beside(arguments->scene, "_sweep");
+    arguments->saving.existing = existing(arguments->output.force);
     exit_code = together([&](Team& team) { return run_sweep(*arguments, team); });
   });
 }

@@ -10,7 +10,6 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/scene/settings.hpp"
-#include "eigentrail/store/loci_writer.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -39,7 +38,8 @@ std::optional<double> first_of(EventKind kind, const std::vector<Event>& events,
 /// A trace whose points go to a loci file.
 class RunOfSweep {
  public:
-  RunOfSweep(TraceSetup setup, const std::string& path) : setup_(std::move(setup)), path_(path) {}
+  RunOfSweep(TraceSetup setup, const std::string& path, const SaveOptions& saving)
+      : setup_(std::move(setup)), path_(path), saving_(saving) {}
   ~RunOfSweep() {
     const std::scoped_lock turn(turn_at_files());
     writer_.reset();
@@ -71,7 +71,8 @@ class RunOfSweep {
     observer.started = [this](const TraceStart& start) { started_ = start; };
     observer.point = [this](const TracePoint& point) {
       const std::scoped_lock turn(turn_at_files());
-      if (!writer_) writer_.emplace(path_, setup_.scene, *setup_.model, setup_.options, started_, point);
+      if (!writer_)
+        writer_.emplace(path_, setup_.scene, *setup_.model, setup_.options, started_, point, saving_);
       writer_->append(point);
       recorder_.append(point);
       return true;
@@ -86,6 +87,7 @@ class RunOfSweep {
 
   TraceSetup setup_;
   const std::string& path_;
+  const SaveOptions& saving_;
   TraceStart started_;
   std::optional<LociWriter> writer_;
   PathRecorder recorder_;
@@ -143,7 +145,7 @@ std::string index_line(const SweepRow& row) {
 }
 
 SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
-                      const OptionTexts& options, const std::string& path) {
+                      const OptionTexts& options, const std::string& path, const SaveOptions& saving) {
   SweepRow row;
   row.reached = std::nan("");
   try {
@@ -154,7 +156,7 @@ SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settin
     }
     project_if_large(setup.model, setup.options);
     check_parameter_name(setup.scene, setup.options.parameter);
-    RunOfSweep run(std::move(setup), path);
+    RunOfSweep run(std::move(setup), path, saving);
     run.into(row);
   } catch (const InputError& error) {
     row.exit_code = bad_input;

@@ -8,6 +8,7 @@
 
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/store/loci_writer.hpp"
 
 namespace eigentrail::app {
 
@@ -58,6 +59,6 @@ std::string index_line(const SweepRow& row);
 /// Traces `scene` with `settings` (NAME=VALUE) and writes the loci file `path`. An error ends up in the row.
 /// May be called by several threads at once.
 SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
-                      const OptionTexts& options, const std::string& path);
+                      const OptionTexts& options, const std::string& path, const SaveOptions& saving);
 
 }  // namespace eigentrail::app

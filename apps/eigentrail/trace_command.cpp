@@ -33,7 +33,7 @@ struct TraceArguments : SceneArguments {
   std::string save_reduced;  ///< file for the matrices of a projected model; empty: none
   bool verbose = false;
   int threads = 0;  ///< 0: one per core
-  double save_every = LociWriter::usual_interval;
+  SaveOptions saving;
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 };
 
@@ -52,8 +52,8 @@ class TraceRun {
 
   int resume(const SavedTrace& saved) {
     recorder_ = PathRecorder(saved.path);
-    writer_.emplace(arguments_.output, *setup_.model, setup_.options, saved, arguments_.save_every);
-    saved_points_ = static_cast<int>(saved.path.n_nodes());
+    writer_.emplace(arguments_.output, *setup_.model, setup_.options, saved, arguments_.saving);
+    note_save();
     return guarded([&] { result_ = resume_trace(*setup_.model, setup_.options, observer(), saved.trace); });
   }
 
@@ -82,7 +82,7 @@ class TraceRun {
     observer.point = [this](const TracePoint& point) {
       if (!writer_) {
         writer_.emplace(arguments_.output, setup_.scene, *setup_.model, setup_.options, started_, point,
-                        arguments_.save_every);
+                        arguments_.saving);
       }
       writer_->append(point);
       recorder_.append(point);
@@ -92,16 +92,21 @@ class TraceRun {
     };
     observer.checkpoint = [this](const Checkpoint& checkpoint) {
       if (!interruption_) {
-        if (writer_->checkpoint(checkpoint)) saved_points_ = recorder_.points();
+        if (writer_->checkpoint(checkpoint)) note_save();
         return true;
       }
       interruption_.save_in_peace();
       writer_->interrupt(checkpoint);
       interrupted_ = true;
-      saved_points_ = recorder_.points();
+      note_save();
       return false;
     };
     return observer;
+  }
+
+  void note_save() {
+    saved_points_ = recorder_.points();
+    Interruption::has_saved();
   }
 
   int end() {
@@ -155,7 +160,7 @@ void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
 }
 
 int run_trace(const TraceArguments& arguments, const SparseSolverMaker& solver) {
-  if (std::isnan(arguments.save_every))
+  if (std::isnan(arguments.saving.interval))
     throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup =
       prepare_trace(given_scene(arguments), {arguments.options.begin(), arguments.options.end()});
@@ -191,10 +196,11 @@ void add_trace(CLI::App& program, int& exit_code) {
                  "go on with an output that was interrupted; begin where there is none")
       ->excludes(force);
   command
-      ->add_option("--save-every", arguments->save_every,
+      ->add_option("--save-every", arguments->saving.interval,
                    "seconds of work that may be lost when the program is killed")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  add_no_lock(*command, arguments->saving);
   command->add_option("--save-reduced", arguments->save_reduced,
                       "large models: write the projected matrices as a family of their own (HDF5; the scene "
                       "that names them is written beside it)");
@@ -216,6 +222,7 @@ void add_trace(CLI::App& program, int& exit_code) {
       "than a second, the program ends with the points up to the last save.");
   command->callback([arguments, output, &exit_code] {
     if (output->count() == 0) arguments->output = beside(arguments->scene, ".h5");
+    arguments->saving.existing = existing(arguments->force);
     exit_code =
         factoring_together([&](const SparseSolverMaker& solver) { return run_trace(*arguments, solver); });
   });

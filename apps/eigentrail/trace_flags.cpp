@@ -29,4 +29,10 @@ void add_trace_options(CLI::App& command, std::map<std::string, std::string>& te
       "no certificate at every step that no modes were exchanged: faster, and compares shapes only");
 }
 
+void add_no_lock(CLI::App& command, SaveOptions& saving) {
+  command.add_flag_callback(
+      "--no-lock", [&saving] { saving.lock = false; },
+      "write without a lock against other processes, on file systems that offer none");
+}
+
 }  // namespace eigentrail::app

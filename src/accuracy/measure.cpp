@@ -1,9 +1,6 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -79,34 +76,14 @@ MeasuredRun measure_interpolant(const GridLoci& loci, Interpolation kind, const 
   return run;
 }
 
-/// The name of a temporary file, which the destructor removes.
-class TemporaryFile {
- public:
-  TemporaryFile()
-      : path_(std::filesystem::temp_directory_path() / ("eigentrail_" + std::to_string(getpid()) + ".h5")) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  std::string name() const { return path_.string(); }
-  std::uint64_t size() const { return std::filesystem::file_size(path_); }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// Traces once, not timed: records the path and writes a loci file, of which it returns the size in bytes.
+/// Traces once, not timed: records the path, and returns the size of the loci file in bytes.
 std::uint64_t record(const TraceSetup& setup, PathRecorder& recorder) {
-  const TemporaryFile file;
   std::optional<TraceStart> started;
   std::optional<LociWriter> writer;
   TraceObserver observer;
   observer.started = [&](const TraceStart& start) { started = start; };
   observer.point = [&](const TracePoint& point) {
-    if (!writer) writer.emplace(file.name(), setup.scene, *setup.model, setup.options, *started, point);
+    if (!writer) writer.emplace(setup.scene, *setup.model, setup.options, *started, point);
     writer->append(point);
     recorder.append(point);
     return true;
@@ -114,8 +91,7 @@ std::uint64_t record(const TraceSetup& setup, PathRecorder& recorder) {
   const TraceResult result = trace(*setup.model, setup.options, observer);
   if (!writer) return 0;
   writer->finish(result, {});
-  writer.reset();
-  return file.size();
+  return writer->bytes().size();
 }
 
 std::vector<double> equidistant(const TraceOptions& options, int points) {

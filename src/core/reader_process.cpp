@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -119,7 +120,7 @@ ReaderProcess::ReaderProcess(const std::string& name) : name_(name) {
     const ReaderDescriptor theirs(ends[1]);
     connection_.reset(new Connection{std::move(ours), start_reader(theirs)});
   } catch (const std::system_error& error) {
-    fail(std::string("no process can be started to read it: ") + error.what());
+    throw std::runtime_error(name_ + ": no process can be started to read it: " + error.what());
   }
 }
 

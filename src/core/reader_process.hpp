@@ -13,11 +13,12 @@
 
 namespace eigentrail {
 
-/// A process that has one file open. Not thread-safe. All functions throw Hdf5Error; its message begins with
+/// A process that has one file open. Not thread-safe. Its functions throw Hdf5Error; its message begins with
 /// the name of the file.
 class ReaderProcess {
  public:
-  /// For the file called `name` in messages, which is opened by the first request.
+  /// For the file called `name` in messages, which is opened by the first request. Throws std::runtime_error
+  /// if no process can be started.
   explicit ReaderProcess(const std::string& name);
 
   /// The answer to a request. Throws Hdf5Error with the reason if there is none: the file has not what was

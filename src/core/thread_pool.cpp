@@ -5,6 +5,8 @@
 #include <exception>
 #include <system_error>
 
+#include "core/blas_buffers.hpp"
+
 namespace eigentrail {
 
 /// The work of one call of run. The pool's mutex guards all members but `next_`, which is atomic. `seats_` is
@@ -91,10 +93,11 @@ std::size_t ThreadPool::n_helpers() const {
   return helpers_.size();
 }
 
-/// If the system cannot start more threads, those that exist do the work.
+/// If the system cannot start more threads, or has no memory for them, those that exist do the work.
 void ThreadPool::make_helpers(std::size_t wanted) {
   try {
-    while (helpers_.size() < wanted) helpers_.emplace_back([this] { help(); });
+    while (helpers_.size() < wanted && blas_has_memory_for(helpers_.size() + 2))
+      helpers_.emplace_back([this] { help(); });
   } catch (const std::system_error&) {
   }
 }

@@ -32,7 +32,7 @@ Archive open_archive(const std::string& path) {
 }
 
 /// The bytes of an entry, unpacked; its checksum is checked by the library. `budget` is what may still be
-/// read. An entry that unpacks to more than its header announces is given up at once.
+/// read. An entry that announces more, or unpacks to more than it announces, is given up at once.
 std::string entry_bytes(zip_t* archive, zip_uint64_t index, const std::string& where, std::size_t& budget) {
   const Entry entry(zip_fopen_index(archive, index, 0), &zip_fclose);
   if (!entry) throw InputError(where + ": cannot be read: " + zip_strerror(archive));
@@ -45,13 +45,15 @@ std::string entry_bytes(zip_t* archive, zip_uint64_t index, const std::string& w
       throw InputError(where + ": is damaged: " + zip_error_strerror(zip_file_get_error(entry.get())));
     if (count == 0) return bytes;
     const auto read = static_cast<std::size_t>(count);
-    if (bytes.empty()) announced = announced_npy_bytes(std::string_view(block).substr(0, read), where);
+    if (bytes.empty()) {
+      announced = announced_npy_bytes(std::string_view(block).substr(0, read), where);
+      if (announced > budget)
+        throw InputError(where + ": more than " + std::to_string(limits::matrix_numbers) +
+                         " numbers in all arrays together");
+      budget -= announced;
+    }
     if (bytes.size() + read > announced)
       throw InputError(where + ": has more bytes than its header announces, " + std::to_string(announced));
-    if (read > budget)
-      throw InputError(where + ": more than " + std::to_string(limits::matrix_numbers) +
-                       " numbers in all arrays together");
-    budget -= read;
     bytes.append(block, 0, read);
   }
 }

@@ -42,11 +42,9 @@ void write_matrices(Hdf5Writer& file, const std::string& name, const std::vector
   file.write_rows(name, 0, rows);
 }
 
-}  // namespace
-
-void write_samples(const std::string& path, const SampledData& data) {
+std::string samples_file(const SampledData& data) {
   check(data);
-  Hdf5Writer file = Hdf5Writer::in_memory(path);
+  Hdf5Writer file = Hdf5Writer::in_memory("samples");
   DatasetSpec parameter{"parameter", ElementType::real, {data.count()}, false, {}};
   parameter.attributes["units"] = data.parameter_unit.empty() ? "1" : data.parameter_unit;
   if (!data.parameter_name.empty()) parameter.attributes["name"] = data.parameter_name;
@@ -63,10 +61,8 @@ void write_samples(const std::string& path, const SampledData& data) {
   write_list(file, "frame", ElementType::text, frames);
   if (data.digits) file.set_attribute("digits", static_cast<std::int64_t>(*data.digits));
   if (!data.source.empty()) file.set_attribute("source", data.source);
-  write_durably(path, {file.image()});
+  return file.image();
 }
-
-namespace {
 
 /// The number of states: columns of the first coefficient.
 Eigen::Index family_size(const PolynomialData& family) {
@@ -133,8 +129,8 @@ void write_sparse(Hdf5Writer& file, const std::string& name, const SparseMatrix&
              std::vector<std::int64_t>(rows.outerIndexPtr(), rows.outerIndexPtr() + rows.rows() + 1));
 }
 
-void write_family(const std::string& path, const PolynomialData& family) {
-  Hdf5Writer file = Hdf5Writer::in_memory(path);
+std::string family_file(const PolynomialData& family) {
+  Hdf5Writer file = Hdf5Writer::in_memory("matrices");
   for (const auto& [name, coefficients] :
        {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"E", &family.E}, {"A", &family.A}}) {
     for (std::size_t power = 0; power < coefficients->size(); ++power) {
@@ -152,7 +148,16 @@ void write_family(const std::string& path, const PolynomialData& family) {
     }
   }
   write_list(file, "state_names", ElementType::text, family.state_names);
-  write_durably(path, {file.image()});
+  return file.image();
+}
+
+/// The bytes of the file that the scene names.
+std::string data_file(const Imported& imported) {
+  if (imported.stations) return imported.stations->csv;
+  if (imported.family) return family_file(*imported.family);
+  SampledData samples = imported.samples;
+  samples.parameter_name = imported.parameter;
+  return samples_file(samples);
 }
 
 std::string scene_text(const Imported& imported, const std::string& file) {
@@ -184,6 +189,10 @@ std::string scene_text(const Imported& imported, const std::string& file) {
 }
 
 }  // namespace
+
+void write_samples(const std::string& path, const SampledData& data) {
+  write_durably(path, {samples_file(data)});
+}
 
 std::string common_name(const std::vector<std::string>& files) {
   std::string name = std::filesystem::path(files.front()).stem().string();
@@ -219,16 +228,9 @@ std::string write_import(const Imported& imported, const std::string& folder, co
   }
   fs::create_directories(folder, error);
   if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
-  if (imported.stations) {
-    write_durably(data.string(), {imported.stations->csv});
-  } else if (imported.family) {
-    write_family(data.string(), *imported.family);
-  } else {
-    SampledData samples = imported.samples;
-    samples.parameter_name = imported.parameter;
-    write_samples(data.string(), samples);
-  }
-  write_durably(scene.string(), {scene_text(imported, data.filename().string())});
+  const std::string bytes = data_file(imported), text = scene_text(imported, data.filename().string());
+  write_durably({{data.string(), {bytes}}, {scene.string(), {text}}},
+                force ? Existing::replace : Existing::keep);
   return scene.string();
 }
 

@@ -1,7 +1,9 @@
 #include "eigentrail/model/build.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "core/blas_buffers.hpp"
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/matrix_family.hpp"
@@ -81,6 +83,9 @@ bool is_rotor(const Scene& scene) {
 
 std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& request) {
   check_top_level(scene);
+  if (!blas_has_memory_for(1))
+    throw std::runtime_error(
+        "not enough memory to compute: BLAS takes 128 MB at a time; allow more (ulimit -v)");
   if (!tables(scene, "trim").empty() && (is_matrix_family(scene) || is_rotor(scene)))
     throw trim_error(scene,
                      "a family of matrices or a scene with [[shaft]], which have no equilibrium to trim");

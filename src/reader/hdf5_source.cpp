@@ -96,7 +96,8 @@ decltype(StoredArray::elements) read_elements(ElementType type, hid_t stored, hi
 /// Refuses data that are elsewhere or compressed in a way that is not HDF5's own, and shapes far larger than
 /// what is stored: a few bytes of damage could otherwise make a reader take all memory. Up to 64 KiB (small
 /// empty datasets), or sixteen times what is stored (modes that were added late in a trace), may be
-/// unwritten; they read as fill values.
+/// unwritten; they read as fill values. What is compressed may unpack to 2 GiB, or sixteen times what is
+/// stored.
 void check_storage(hid_t set, hid_t space, const Shape& shape, std::size_t element, const std::string& name) {
   const Handle properties(H5Dget_create_plist(set), H5Pclose, "read how " + name + " is stored");
   const H5D_layout_t layout = H5Pget_layout(properties);
@@ -109,7 +110,8 @@ void check_storage(hid_t set, hid_t space, const Shape& shape, std::size_t eleme
                                        filter.size() - 1, filter.data(), nullptr)) <= 0)
       throw Hdf5Error(name + " is compressed by '" + filter.data() + "'; write it with deflate (gzip)");
   }
-  hsize_t stored = H5Dget_storage_size(set);
+  const hsize_t packed = H5Dget_storage_size(set);
+  hsize_t stored = packed;
   if (layout == H5D_CHUNKED) {
     std::vector<hsize_t> chunk(shape.size());
     check(H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()),
@@ -117,9 +119,11 @@ void check_storage(hid_t set, hid_t space, const Shape& shape, std::size_t eleme
     check(H5Dget_num_chunks(set, space, &stored), "count the chunks of " + name);
     stored *= element * element_count({chunk.begin(), chunk.end()});
   }
-  constexpr std::uint64_t unwritten_multiple = 16, unwritten_bytes = 1U << 16U;
+  constexpr std::uint64_t unwritten_multiple = 16, unwritten_bytes = 1U << 16U, compressed_bytes = 1U << 31U;
   const std::uint64_t count = element_count(shape);
-  if (count > max_elements ||
+  const bool unpacks_to_too_much =
+      count * element > compressed_bytes && count * element / unwritten_multiple > packed;
+  if (count > max_elements || unpacks_to_too_much ||
       count * element / unwritten_multiple > stored + unwritten_bytes / unwritten_multiple)
     throw Hdf5Error(name + " is too large: more elements than the file holds");
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -94,6 +95,7 @@ class Server {
 
 int main() {
   eigentrail::reader::limit(RLIMIT_CORE, 0);
+  setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);  // not all file systems offer locks, and our files are whole
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5PLset_loading_state(0);  // no filters but those of HDF5
   eigentrail::reader::Server().run();

@@ -7,7 +7,6 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/version.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "report/file_data.hpp"
 
 // The page with its scripts and styles but without data (page.S.in).
@@ -37,12 +36,12 @@ Json page_data(const std::vector<std::string>& files) {
 
 }  // namespace
 
-void write_report(const std::vector<std::string>& files, const std::string& path) {
+std::string report_page(const std::vector<std::string>& files) {
   const std::string data = page_json(page_data(files));
   const std::size_t mark = page().find(data_mark);
   if (mark == std::string_view::npos || !page().starts_with(signature))
-    throw std::logic_error("write_report: the page in this program is damaged; build it again");
-  write_durably(path, {page().substr(0, mark), data, page().substr(mark + data_mark.size())});
+    throw std::logic_error("report_page: the page in this program is damaged; build it again");
+  return std::string(page()).replace(mark, data_mark.size(), data);
 }
 
 std::string drawing_data(const std::string& loci_path, std::size_t node) {

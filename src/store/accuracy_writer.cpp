@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "core/hdf5_writer.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/provenance.hpp"
 
@@ -111,11 +110,6 @@ std::string study_file(const TraceSetup& setup, const StudyOptions& options, con
   write_runs(file, study.runs, unit);
   write_references(file, study.reference, unit);
   return file.image();
-}
-
-void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
-                 const Study& study) {
-  write_durably(path, {study_file(setup, options, study)});
 }
 
 }  // namespace eigentrail

@@ -6,7 +6,6 @@
 
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/provenance.hpp"
 
@@ -277,10 +276,6 @@ void check_boundary_names(const Scene& scene, const BoundaryOptions& options) {
 
 std::string boundary_file(const BoundarySetup& setup, const BoundaryResult& result) {
   return BoundaryFile(setup, result).write();
-}
-
-void write_boundaries(const std::string& path, const BoundarySetup& setup, const BoundaryResult& result) {
-  write_durably(path, {boundary_file(setup, result)});
 }
 
 }  // namespace eigentrail

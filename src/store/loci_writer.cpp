@@ -10,7 +10,6 @@
 #include "eigentrail/modes/normalization.hpp"
 #include "eigentrail/modes/whirl.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "store/data_error_datasets.hpp"
 #include "store/loci_schema.hpp"
 #include "store/loci_summary.hpp"
@@ -61,12 +60,12 @@ void check_parameter_name(const Scene& scene, const std::string& parameter) {
 
 struct LociWriter::Implementation {
   std::string path;                  ///< empty: the file stays in memory
-  std::unique_ptr<OutputLock> lock;  ///< null: the file stays in memory
+  std::unique_ptr<OutputLock> lock;  ///< null: none
   LociTables tables;
   const Model& model;
   std::string parameter;
   std::size_t coordinates;
-  double save_every;
+  SaveOptions saving;
   ModeMotions motions;
   LociRows rows = {};
   std::vector<ComplexVector> last_shapes = {};  ///< per mode: its shape at the last point where it existed
@@ -88,6 +87,10 @@ struct LociWriter::Implementation {
 
 namespace {
 
+std::unique_ptr<OutputLock> lock_of(const std::string& path, const SaveOptions& saving) {
+  return saving.lock ? std::make_unique<OutputLock>(path) : nullptr;
+}
+
 LociTables new_tables(const std::string& path, const Scene& scene, const Model& model,
                       const TraceOptions& options, const TraceStart& start,
                       const std::vector<std::string>& motions) {
@@ -104,13 +107,13 @@ LociTables new_tables(const std::string& path, const Scene& scene, const Model& 
 
 LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model& model,
                        const TraceOptions& options, const TraceStart& start, const TracePoint& first,
-                       double save_every) {
-  auto lock = std::make_unique<OutputLock>(path);
+                       const SaveOptions& saving) {
+  auto lock = lock_of(path, saving);
   check_can_create(path);
   ModeMotions motions(model, first);
   LociTables tables = new_tables(path, scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), model, options.parameter,
-                                           static_cast<std::size_t>(model.n_coordinates()), save_every,
+                                           static_cast<std::size_t>(model.n_coordinates()), saving,
                                            std::move(motions)});
   implementation_->wanted_names = options.mode_names;
   implementation_->scene_path = scene.path;
@@ -127,15 +130,15 @@ LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOption
                                            model,
                                            options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()),
-                                           usual_interval,
+                                           {},
                                            std::move(motions)});
   implementation_->wanted_names = options.mode_names;
   implementation_->scene_path = scene.path;
 }
 
 LociWriter::LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
-                       const SavedTrace& saved, double save_every) {
-  auto lock = std::make_unique<OutputLock>(path);
+                       const SavedTrace& saved, const SaveOptions& saving) {
+  auto lock = lock_of(path, saving);
   LociTables tables(Hdf5Writer::from_image(path, saved.image), model, options);
   implementation_.reset(new Implementation{path,
                                            std::move(lock),
@@ -143,8 +146,9 @@ LociWriter::LociWriter(const std::string& path, const Model& model, const TraceO
                                            model,
                                            options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()),
-                                           save_every,
+                                           saving,
                                            {}});
+  implementation_->saving.existing = Existing::replace;
   try {
     ArchiveReader archive(saved.writer);
     archive(implementation_->last_shapes, implementation_->motions, implementation_->events);
@@ -303,7 +307,8 @@ void LociWriter::Implementation::save(std::string image, std::string_view state)
     if (path.empty()) {
       bytes = std::move(image.append(state));
     } else {
-      write_durably(path, {image, state});
+      write_durably(path, {image, state}, saving.existing);
+      saving.existing = Existing::replace;
     }
   } catch (const std::exception& error) {
     throw WriteError(error.what());
@@ -326,7 +331,7 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
 bool LociWriter::checkpoint(const Checkpoint& checkpoint) {
   Implementation& self = *implementation_;
   if (self.path.empty()) return false;
-  const double interval = std::max(self.save_every, self.cost / largest_share);
+  const double interval = std::max(self.saving.interval, self.cost / largest_share);
   if (self.is_saved && seconds_since(self.last_saved) < interval) return false;
   self.save(checkpoint, "running");
   return true;

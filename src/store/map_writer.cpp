@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "core/hdf5_writer.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/provenance.hpp"
 
@@ -147,10 +146,6 @@ void check_map_names(const MapSetup& setup) {
 
 std::string map_file(const MapSetup& setup, const StabilityMap& map) {
   return MapFile(setup, map).write();
-}
-
-void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map) {
-  write_durably(path, {map_file(setup, map)});
 }
 
 }  // namespace eigentrail

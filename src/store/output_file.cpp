@@ -1,55 +1,115 @@
 #include "eigentrail/store/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "store/output_lock.hpp"
 
 namespace eigentrail {
 namespace {
-
-/// A name for the temporary file that no other process uses.
-std::string partial_name(const std::string& path) {
-  return path + ".partial." + std::to_string(getpid());
-}
 
 [[noreturn]] void fail(const std::string& path) {
   throw std::system_error(errno, std::generic_category(), path);
 }
 
-/// A file descriptor that the destructor closes.
-class Descriptor {
- public:
-  Descriptor(std::string path, int flags)
-      : path_(std::move(path)), number_(open(path_.c_str(), flags, 0666)) {
-    if (number_ < 0) fail(path_);
-  }
-  ~Descriptor() { close(number_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+/// Flushes a file or a folder to the disk. Does nothing on file systems that do not support this.
+void sync(int descriptor, const std::string& path) {
+  if (fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) fail(path);
+}
 
+/// Makes a rename in the folder of `path` last.
+void sync_folder(const std::string& path) {
+  const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail(folder);
+  try {
+    sync(descriptor, folder);
+  } catch (...) {
+    close(descriptor);
+    throw;
+  }
+  close(descriptor);
+}
+
+/// Renames without replacing. NFS cannot do that, but refuses a second name that is there.
+bool rename_to_new(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno != EINVAL && errno != ENOSYS) return false;
+  return link(from.c_str(), to.c_str()) == 0 && unlink(from.c_str()) == 0;
+}
+
+/// The file that a symbolic link leads to.
+std::string target_of(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  return error ? path : target.string();
+}
+
+/// The new version of a file, under another name until it takes its place.
+class PartialFile {
+ public:
+  explicit PartialFile(const std::string& path)
+      : path_(path), target_(target_of(path)), name_(target_ + ".partial"), file_(name_, path) {}
+  ~PartialFile() {
+    if (is_there_) std::remove(name_.c_str());
+  }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  void write(const std::vector<std::string_view>& parts) {
+    if (ftruncate(file_.descriptor(), 0) != 0) fail(path_);
+    for (const std::string_view part : parts) write(part);
+    sync(file_.descriptor(), path_);
+  }
+
+  void take_place(Existing existing) {
+    if (existing == Existing::replace) {
+      keep_permissions();
+      if (rename(name_.c_str(), target_.c_str()) != 0) fail(path_);
+    } else if (!rename_to_new(name_, target_)) {
+      if (errno != EEXIST) fail(path_);
+      is_there_ = false;
+      throw std::runtime_error(
+          path_ + ": a file that has appeared here since the run began is kept; what was computed is in " +
+          name_ + "; rename one of them");
+    }
+    is_there_ = false;
+    sync_folder(target_);
+  }
+
+ private:
   void write(std::string_view bytes) {
     while (!bytes.empty()) {
-      const ssize_t written = ::write(number_, bytes.data(), bytes.size());
+      const ssize_t written = ::write(file_.descriptor(), bytes.data(), bytes.size());
       if (written < 0 && errno != EINTR) fail(path_);
       if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     }
   }
 
-  /// Flushes the file to the disk. Does nothing on file systems that do not support this.
-  void sync() {
-    if (fsync(number_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(path_);
+  /// Owner and group as far as this process may give them.
+  void keep_permissions() {
+    struct stat old {};
+    if (stat(target_.c_str(), &old) != 0) return;
+    [[maybe_unused]] const int owned = fchown(file_.descriptor(), old.st_uid, old.st_gid);
+    constexpr mode_t permissions = 0777;
+    if (fchmod(file_.descriptor(), old.st_mode & permissions) != 0) fail(path_);
   }
 
- private:
-  std::string path_;
-  int number_;
+  std::string path_, target_, name_;
+  LockedFile file_;
+  bool is_there_ = true;  ///< under this name, to be removed
 };
 
 }  // namespace
@@ -64,30 +124,21 @@ bool may_be_replaced(const std::string& path, const std::string& format) {
 }
 
 void check_can_create(const std::string& path) {
-  const std::string partial = partial_name(path);
   try {
-    Descriptor(partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC);
+    PartialFile{path};
   } catch (const std::system_error& error) {
     throw InputError(path + ": cannot be created: " + error.code().message());
   }
-  std::remove(partial.c_str());
 }
 
-void write_durably(const std::string& path, std::initializer_list<std::string_view> parts) {
-  const std::string partial = partial_name(path);
-  try {
-    {
-      Descriptor file(partial, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
-      for (const std::string_view part : parts) file.write(part);
-      file.sync();
-    }
-    std::filesystem::rename(partial, path);
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    Descriptor(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY | O_CLOEXEC).sync();
-  } catch (...) {
-    std::remove(partial.c_str());
-    throw;
-  }
+void write_durably(const std::vector<NewFile>& files, Existing existing) {
+  std::deque<PartialFile> partials;
+  for (const NewFile& file : files) partials.emplace_back(file.path).write(file.parts);
+  for (PartialFile& partial : partials) partial.take_place(existing);
+}
+
+void write_durably(const std::string& path, std::vector<std::string_view> parts, Existing existing) {
+  write_durably({{path, std::move(parts)}}, existing);
 }
 
 }  // namespace eigentrail

@@ -11,7 +11,6 @@
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "store/differences.hpp"
 
 namespace eigentrail {
@@ -105,7 +104,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene)
   return {{"version", version()}, {"scene", scene.text}, {"files of the scene", files}};
 }
 
-void write_part(const PartFile& file) {
+void write_part(const PartFile& file, Existing existing) {
   Hdf5Writer head = Hdf5Writer::in_memory(file.path);
   head.set_attribute("format", part_format);
   head.set_attribute("schema_version", std::int64_t{part_schema_version});
@@ -120,7 +119,7 @@ void write_part(const PartFile& file) {
   const std::string bytes = head.image() + pieces;
   PartMark mark{{}, pieces.size(), fingerprint(bytes)};
   std::copy(PartMark::text.begin(), PartMark::text.end(), mark.name.begin());
-  write_durably(file.path, {bytes, {reinterpret_cast<const char*>(&mark), sizeof mark}});
+  write_durably(file.path, {bytes, {reinterpret_cast<const char*>(&mark), sizeof mark}}, existing);
 }
 
 PartFile read_part_file(const std::string& path) {

@@ -33,11 +33,11 @@ std::string write_projected(const std::string& path, const Scene& scene, const P
   write_terms(file, "M", family.pencil().M);
   write_terms(file, "C", family.pencil().C);
   write_terms(file, "K", family.pencil().K);
-  write_durably(path, {file.image()});
   // A scene of a large model has one key `file`, that of its matrices.
   static const std::regex key("(^|\n)([ \t]*file[ \t]*=[ \t]*)(\"[^\"\n]*\"|'[^'\n]*')");
   const std::string name = fs::path(path).filename().string();
-  write_durably(beside, {std::regex_replace(scene.text, key, "$1$2\"" + name + "\"")});
+  const std::string image = file.image(), text = std::regex_replace(scene.text, key, "$1$2\"" + name + "\"");
+  write_durably({{path, {image}}, {beside, {text}}}, force ? Existing::replace : Existing::keep);
   return beside;
 }
 

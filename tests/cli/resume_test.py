@@ -168,7 +168,7 @@ class Interrupted(ProgramTest):
                 said = run.communicate(timeout=TIME_LIMIT)[1]
                 self.assertLess(time.monotonic() - begin, 5.0)  # promised is a second; the machine may be busy
                 self.assertEqual(run.returncode, 128 + number)
-                self.assertIn("eigentrail: interrupted within a step", said)
+                self.assertIn("eigentrail: interrupted before anything was saved", said)
 
     def test_killed_trace_leaves_a_file_that_goes_on(self):
         """A few kills at different times; kills.py does a thousand."""

@@ -76,7 +76,9 @@ std::size_t trace_once(const Setting& setting, const std::string& path) {
   TraceObserver observer;
   observer.started = [&](const TraceStart& known) { start = known; };
   observer.point = [&](const TracePoint& point) {
-    if (!writer) writer.emplace(path, setting.scene, *setting.model, setting.options, start, point, 0.0);
+    if (!writer)
+      writer.emplace(path, setting.scene, *setting.model, setting.options, start, point,
+                     SaveOptions{0.0, Existing::replace});
     writer->append(point);
     return true;
   };

@@ -34,7 +34,9 @@ class LociFileTest : public testing::Test {
     TraceObserver observer;
     observer.started = [&](const TraceStart& known) { start = known; };
     observer.point = [&](const TracePoint& point) {
-      if (!writer) writer.emplace(path, setting.scene, *setting.model, setting.options, *start, point);
+      if (!writer)
+        writer.emplace(path, setting.scene, *setting.model, setting.options, *start, point,
+                       SaveOptions{2.0, Existing::replace});
       writer->append(point);
       recorder.append(point);
       return true;

@@ -63,8 +63,49 @@ TEST_F(OutputFileTest, TryingToCreateLeavesNothingBehindAndTouchesNothing) {
 
 TEST_F(OutputFileTest, WritingReplacesWithAllParts) {
   write_text(path, "old");
-  write_durably(path, {"n", "", "ew"});
+  write_durably(path, {"n", "", "ew"}, Existing::replace);
   EXPECT_EQ(text(), "new");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, WhatIsToBeKeptStaysAndTheNewFileBesideIt) {
+  write_text(path, "old");
+  EXPECT_THROW(write_durably(path, {"new"}), std::runtime_error);
+  EXPECT_EQ(text(), "old");
+  EXPECT_EQ(files(), 2u);
+  std::filesystem::rename(path + ".partial", path);
+  EXPECT_EQ(text(), "new");
+}
+
+TEST_F(OutputFileTest, FilesThatBelongTogetherAreRenamedOnceAllAreWritten) {
+  const std::string other = folder / "none" / "other.h5";
+  EXPECT_THROW(write_durably({{path, {"one"}}, {other, {"two"}}}), std::system_error);
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFileTest, PermissionsAndLinksOfTheReplacedFileStay) {
+  using std::filesystem::perms;
+  const std::string link = folder / "link.h5";
+  write_text(path, "old");
+  std::filesystem::permissions(path, perms::owner_read | perms::group_read);
+  std::filesystem::create_symlink("out.h5", link);
+  write_durably(link, {"new"}, Existing::replace);
+  EXPECT_EQ(text(), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(std::filesystem::status(path).permissions(), perms::owner_read | perms::group_read);
+}
+
+TEST_F(OutputFileTest, WhatAKilledProcessHasLeftIsTaken) {
+  write_text(path + ".partial", "longer than what follows");
+  write_durably(path, {"new"});
+  EXPECT_EQ(text(), "new");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, WhatAnotherProcessWritesIsLeftToIt) {
+  const LockedFile theirs(path + ".partial", path);
+  EXPECT_THROW(write_durably(path, {"new"}), InputError);
+  EXPECT_THROW(check_can_create(path), InputError);
   EXPECT_EQ(files(), 1u);
 }
 
@@ -76,7 +117,7 @@ TEST_F(OutputFileTest, FailedWritingKeepsTheOldFile) {
     const rlimit few{1000, 1000};
     setrlimit(RLIMIT_FSIZE, &few);
     try {
-      write_durably(path, {std::string(600, 'x'), std::string(600, 'y')});
+      write_durably(path, {std::string(600, 'x'), std::string(600, 'y')}, Existing::replace);
     } catch (const std::system_error& error) {
       std::exit(error.code().value() == EFBIG ? 7 : 8);
     }

@@ -2,7 +2,6 @@
 
 import builtins
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
@@ -112,25 +111,9 @@ def write(contents: Mapping[str, bytes], overwrite: bool) -> None:
             raise FileExistsError(f"{path}: exists; give another name, or overwrite=True")
         if os.path.exists(path) and not os.path.isfile(path):
             raise FileExistsError(f"{path}: is no regular file, and is not replaced")
-    for path, content in contents.items():
-        replace(path, content)
-
-
-def replace(path: str, image: bytes) -> None:
-    """Writes bytes to a file, which is then either the complete new one or the old one."""
-    if not os.path.isdir(os.path.dirname(path) or "."):
-        raise FileNotFoundError(f"{path}: there is no such folder")
-    handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", prefix=os.path.basename(path) + ".partial.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(image)
-            os.fchmod(file.fileno(), 0o666 & ~_umask())
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(partial, path)
-    except BaseException:
-        os.unlink(partial)
-        raise
+        if not os.path.isdir(os.path.dirname(path) or "."):
+            raise FileNotFoundError(f"{path}: there is no such folder")
+    engine().write_files([(os.fsencode(path), content) for path, content in contents.items()], overwrite)
 
 
 def _dataset(contents: Contents) -> xarray.Dataset:
@@ -144,12 +127,6 @@ def _dataset(contents: Contents) -> xarray.Dataset:
         labels.update(attributes.get("coordinates", "").split())
     coordinates = {name: value for name, value in variables.items() if value[0] == (name,) or name in labels}
     return xarray.Dataset({name: value for name, value in variables.items() if name not in coordinates}, coordinates, of_file)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _checked_format(path: str, attributes: Mapping[str, Any]) -> str:

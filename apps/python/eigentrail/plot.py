@@ -31,12 +31,20 @@ def main(arguments=None):
         options = _parser().parse_args(arguments)
         kind = _suffix(options.output)
         picture = picture_of([files.open(path) for path in options.files], options)
-        files.replace(options.output, with_matplotlib.image(picture, kind, __version__))
+        image = with_matplotlib.image(picture, kind, __version__)
     except (ValueError, OSError) as error:
-        known = isinstance(error, OSError) and error.filename and error.strerror
-        print(f"eigentrail: {f'{error.filename}: {error.strerror}' if known else error}", file=sys.stderr)
-        return 2
+        return _failed(error, 2)
+    try:
+        files.write({options.output: image}, options.force)
+    except (ValueError, OSError, RuntimeError) as error:
+        return _failed(error, 1)
     return 0
+
+
+def _failed(error, exit_code):
+    known = isinstance(error, OSError) and error.filename and error.strerror
+    print(f"eigentrail: {f'{error.filename}: {error.strerror}' if known else error}", file=sys.stderr)
+    return exit_code
 
 
 def picture_of(data, options):
@@ -152,7 +160,8 @@ def _parser():
     parser.add_argument("--mode", type=_mode)
     parser.add_argument("--at")
     parser.add_argument("--view", default="3D")
-    parser.add_argument("--log", action="store_true")
+    for flag in ("--log", "--force"):
+        parser.add_argument(flag, action="store_true")
     parser.add_argument("--size", type=_size)
     return parser
 

@@ -3,6 +3,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <system_error>
 #include <variant>
 
 #include "core/hdf5_file.hpp"
@@ -107,6 +109,20 @@ std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::strin
   return {result, as_python(attributes)};
 }
 
+/// Writes bytes to paths, as write_durably does. Errors of the system become OSError.
+void write_files(const std::vector<std::pair<std::string, py::bytes>>& contents, bool overwrite) {
+  std::vector<NewFile> files;
+  for (const auto& [path, bytes] : contents) files.push_back({path, {std::string_view(bytes)}});
+  try {
+    const py::gil_scoped_release released;
+    write_durably(files, overwrite ? Existing::replace : Existing::keep);
+  } catch (const std::system_error& error) {
+    errno = error.code().value();
+    PyErr_SetFromErrnoWithFilename(PyExc_OSError, contents.front().first.c_str());
+    throw py::error_already_set();
+  }
+}
+
 }  // namespace
 
 void add_files(py::module_& module) {
@@ -114,10 +130,8 @@ void add_files(py::module_& module) {
              py::arg("folder"));
   module.def("import_formats", &formats);
   module.def("read_file", &read_file, py::arg("image"), py::arg("called"), py::arg("names"));
-  module.def("may_be_replaced", &may_be_replaced, py::arg("path"), py::arg("format"));
+  module.def("write_files", &write_files, py::arg("contents"), py::arg("overwrite"));
   module.def("drawing_data", &drawing_data, py::arg("path"), py::arg("node"),
-             py::call_guard<py::gil_scoped_release>());
-  module.def("write_report", &write_report, py::arg("files"), py::arg("path"),
              py::call_guard<py::gil_scoped_release>());
 }
 

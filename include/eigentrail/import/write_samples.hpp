@@ -7,8 +7,8 @@
 
 namespace eigentrail {
 
-/// Replaces the file atomically. Throws std::invalid_argument if the samples do not fit each other (check),
-/// and std::runtime_error if the file cannot be written.
+/// Writes a new file. Throws std::invalid_argument if the samples do not fit each other (check), and
+/// std::runtime_error if the file is there or cannot be written.
 void write_samples(const std::string& path, const SampledData& data);
 
 }  // namespace eigentrail

@@ -1,4 +1,4 @@
-// Writes one self-contained HTML page from files of eigentrail: loci, boundaries, maps, accuracy studies.
+// One self-contained HTML page from files of eigentrail: loci, boundaries, maps, accuracy studies.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,8 @@
 
 namespace eigentrail {
 
-/// Reads the files and writes the page to `path`. The page is replaced atomically: `path` names either the
-/// complete new page or what was there before. Throws InputError if a file cannot be read or contains nothing
-/// to show, and std::runtime_error if the page cannot be written.
-void write_report(const std::vector<std::string>& files, const std::string& path);
+/// The page of these files. Throws InputError if a file cannot be read or contains nothing to show.
+std::string report_page(const std::vector<std::string>& files);
 
 /// What a picture of a trace shows that its file has only in the scene, as a JSON object. `excitation`: the
 /// frequency (rad/s) at equidistant values of the parameter and the harmonics named in the scene; null if the
@@ -19,7 +17,7 @@ void write_report(const std::vector<std::string>& files, const std::string& path
 /// file is no loci file or has no such point.
 std::string drawing_data(const std::string& loci_path, std::size_t node);
 
-/// Whether a file is a page written by `write_report`.
+/// Whether a file is such a page.
 bool is_report(const std::string& path);
 
 }  // namespace eigentrail

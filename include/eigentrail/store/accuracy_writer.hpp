@@ -13,9 +13,4 @@ inline constexpr const char* accuracy_format = "eigentrail-accuracy";
 /// The bytes of the file. Throws std::runtime_error if HDF5 cannot make it.
 std::string study_file(const TraceSetup& setup, const StudyOptions& options, const Study& study);
 
-/// Writes the whole study. The file is replaced atomically: `path` names either the complete new file or what
-/// was there before. Throws std::runtime_error if it cannot be written.
-void write_study(const std::string& path, const TraceSetup& setup, const StudyOptions& options,
-                 const Study& study);
-
 }  // namespace eigentrail

@@ -16,8 +16,4 @@ void check_boundary_names(const Scene& scene, const BoundaryOptions& options);
 /// The bytes of the file. Throws std::runtime_error if HDF5 cannot make it.
 std::string boundary_file(const BoundarySetup& setup, const BoundaryResult& result);
 
-/// Writes the whole file. It is replaced atomically: `path` names either the complete new file or what was
-/// there before. Throws std::runtime_error if it cannot be written.
-void write_boundaries(const std::string& path, const BoundarySetup& setup, const BoundaryResult& result);
-
 }  // namespace eigentrail

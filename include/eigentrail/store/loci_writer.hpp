@@ -13,6 +13,7 @@
 #include "eigentrail/continuation/data_errors.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
+#include "eigentrail/store/output_file.hpp"
 #include "eigentrail/store/saved_trace.hpp"
 
 namespace eigentrail {
@@ -29,27 +30,30 @@ class WriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// How a loci file is saved.
+struct SaveOptions {
+  double interval = 2.0;  ///< seconds between saves, which is the work that may be lost
+  Existing existing = Existing::keep;
+  bool lock = true;  ///< against other processes; not all file systems can
+};
+
 class LociWriter {
  public:
-  /// Seconds between saves, which is the work that may be lost.
-  static constexpr double usual_interval = 2.0;
-
-  /// Begins a file. The first checkpoint writes it to the disk and replaces an existing file. The first point
-  /// of the trace, `first`, defines the directions of motion for the names of modes; it must be appended
-  /// with `append` as well. The file is saved every `save_every` seconds, or less often if saving would take
-  /// more than a twentieth of the time. Throws InputError if the file cannot be created or another process
-  /// writes it.
+  /// Begins a file. The first checkpoint writes it to the disk. The first point of the trace, `first`,
+  /// defines the directions of motion for the names of modes; it must be appended with `append` as well. The
+  /// file is saved every `interval` seconds, or less often if saving would take more than a twentieth of the
+  /// time. Throws InputError if the file cannot be created or another process writes it.
   LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
-             const TraceStart& start, const TracePoint& first, double save_every = usual_interval);
+             const TraceStart& start, const TracePoint& first, const SaveOptions& saving = {});
 
   /// Begins a file that stays in memory: checkpoints save nothing, and `bytes` gives it.
   LociWriter(const Scene& scene, const Model& model, const TraceOptions& options, const TraceStart& start,
              const TracePoint& first);
 
-  /// Continues the file that `saved` was read from. Throws InputError if it does not fit the model or another
-  /// process writes it.
+  /// Continues the file that `saved` was read from, and replaces it. Throws InputError if it does not fit the
+  /// model or another process writes it.
   LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
-             const SavedTrace& saved, double save_every = usual_interval);
+             const SavedTrace& saved, const SaveOptions& saving = {});
 
   ~LociWriter();
   LociWriter(const LociWriter&) = delete;

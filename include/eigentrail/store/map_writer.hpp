@@ -17,8 +17,4 @@ void check_map_names(const MapSetup& setup);
 /// The bytes of the file. Throws std::runtime_error if HDF5 cannot make it.
 std::string map_file(const MapSetup& setup, const StabilityMap& map);
 
-/// Writes the whole map. The file is replaced atomically: `path` names either the complete new file or what
-/// was there before. Throws std::runtime_error if the file cannot be written.
-void write_map(const std::string& path, const MapSetup& setup, const StabilityMap& map);
-
 }  // namespace eigentrail

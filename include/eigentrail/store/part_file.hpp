@@ -13,6 +13,7 @@
 
 #include "eigentrail/core/workers.hpp"
 #include "eigentrail/scene/scene.hpp"
+#include "eigentrail/store/output_file.hpp"
 
 namespace eigentrail {
 
@@ -43,8 +44,8 @@ struct PartFile {
 /// scene names.
 std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene);
 
-/// Replaces the file atomically. Throws std::runtime_error if it cannot be written.
-void write_part(const PartFile& file);
+/// Writes the file as write_durably does.
+void write_part(const PartFile& file, Existing existing);
 
 /// Throws InputError if the file is missing, no part, damaged, or written by another version.
 PartFile read_part_file(const std::string& path);

@@ -284,14 +284,16 @@ bool same_matrices(const PathProblem& problem, const PathNode& node) {
   const Model& model = problem.model;
   const Path here{parameters_at(problem, node.p), node.path.x.col(0), node.path.lambda.col(0)};
   EvaluationCounts counts = model.new_counts();
-  Linearization now;
-  if (model.linearize(here, 0, now, counts)) return false;
-  const auto same = [](const SystemMatrix& a, const SystemMatrix& b) {
-    return (a.dense() - b.dense()).norm() <= matrix_rounding * b.norm();
+  Linearization found;
+  if (model.linearize(here, 0, found, counts)) return false;
+  const auto same = [](SystemMatrix now, const SystemMatrix& before) {
+    if (now.is_sparse() != before.is_sparse()) return false;
+    now.add_scaled(-1.0, before);
+    return now.norm() <= matrix_rounding * before.norm();
   };
   const Linearization& before = node.linearization;
-  return same(now.M[0], before.M[0]) && same(now.C[0], before.C[0]) && same(now.K[0], before.K[0]) &&
-         same(now.A[0], before.A[0]);
+  return same(found.M[0], before.M[0]) && same(found.C[0], before.C[0]) && same(found.K[0], before.K[0]) &&
+         same(found.A[0], before.A[0]);
 }
 
 /// Whether the modes of a track stand for at most as many others as its part for other parts.
