@@ -5,6 +5,7 @@
 
 #include "model/beam_axis.hpp"
 #include "model/gauss_points.hpp"
+#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -13,15 +14,6 @@ namespace {
 /// functions with mass that is linear between stations, if elements are straight.
 constexpr int mass_points = 2;
 constexpr int most_elements = 2000;
-
-/// A whole number from 1 to `most`.
-int read_whole_number(TableReader& table, const std::string& key, int otherwise, int most) {
-  const Expression e = table.expression_or(key, otherwise);
-  const double n = e.is_constant() ? e.evaluate(std::span<const double>()) : 0.0;
-  if (!(n >= 1.0) || n > most || n != std::floor(n))
-    table.fail(key, "expected a whole number from 1 to " + std::to_string(most));
-  return static_cast<int>(n);
-}
 
 class BeamBuilder {
  public:
@@ -256,8 +248,8 @@ std::string read_beam_name(Draft& draft, TableReader& table) {
 }
 
 void read_elements(TableReader& table, BeamDesign& design) {
-  design.elements = read_whole_number(table, "elements", design.elements, most_elements);
-  design.degree = read_whole_number(table, "degree", design.degree, 2);
+  if (table.has("elements")) design.elements = whole_number(table, "elements", 1, most_elements);
+  if (table.has("degree")) design.degree = whole_number(table, "degree", 1, 2);
 }
 
 std::array<FieldHelp, 2> element_fields() {

@@ -30,7 +30,8 @@ struct CoefficientTable {
   /// Largest error of a column at a row that is left out, relative to the largest value of the column; NaN
   /// with fewer than four rows.
   double error = 0.0;
-  std::string worst;  ///< the column that has it
+  std::string worst;   ///< the column that has it
+  bool exact = false;  ///< TableColumns::exact
 
   std::shared_ptr<const TabulatedFactor> find(const std::string& key) const;
   /// Why the argument (SI) cannot be looked at; empty if it lies within the table.
@@ -48,6 +49,8 @@ struct TableColumns {
   /// poles with the least leave-one-out errors. These are deceived by functions that are odd or even over
   /// rows that are symmetric: a row that is left out then has a mirror image.
   std::optional<int> degree = std::nullopt;
+  /// The interpolant is the function that is meant: no errors between the rows.
+  bool exact = false;
 };
 
 /// The columns of a table; the first one is the argument, ascending. Throws TableFault.

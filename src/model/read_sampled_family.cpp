@@ -10,6 +10,7 @@
 #include "eigentrail/scene/units.hpp"
 #include "model/beside_scene.hpp"
 #include "model/sampled_family.hpp"
+#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -34,14 +35,6 @@ double unit_of_values(TableReader& table, const Parameter& variable, const std::
                            "'; declare the same unit, or one that is understood");
   }
   return *factor;
-}
-
-int whole_number(TableReader& table, const std::string& key, int least, int most) {
-  const Expression expression = table.expression(key);
-  const double value = expression.is_constant() ? expression.evaluate(std::span<const double>()) : NAN;
-  if (!(value >= least && value <= most) || value != std::floor(value))
-    table.fail(key, "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most));
-  return static_cast<int>(value);
 }
 
 /// Indices of the samples at which the scene declares a kink.
@@ -166,7 +159,7 @@ std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<in
   for (double& value : data.values) value *= factor;
   const std::vector<std::size_t> kinks = read_kinks(table, data, variable.factor);
   std::optional<int> degree;
-  if (table.has("degree")) degree = whole_number(table, "degree", 1, 15);
+  if (table.has("degree")) degree = whole_number(table, "degree", 1, highest_degree);
   if (table.has("digits")) data.digits = whole_number(table, "digits", 1, 17);
   table.finish();
   std::vector<int> unused = unused_parameters(scene, used);

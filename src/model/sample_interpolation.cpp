@@ -7,9 +7,6 @@
 namespace eigentrail {
 namespace {
 
-/// Largest degree of a blended polynomial. Higher ones amplify errors of the samples near the ends (Floater &
-/// Hormann, Sect. 5).
-constexpr int highest_degree = 15;
 /// The smallest degree is taken whose leave-one-out error is within this factor of the least one.
 constexpr double as_good = 1.1;
 /// Poles are used if they bring the leave-one-out error down to this share: noise can lower it a little.

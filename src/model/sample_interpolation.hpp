@@ -9,6 +9,10 @@
 
 namespace eigentrail {
 
+/// Largest degree of a blended polynomial. Higher ones amplify errors of the samples near the ends (Floater &
+/// Hormann, Sect. 5).
+inline constexpr int highest_degree = 15;
+
 /// Samples `first` ... `first` + n - 1 and their interpolant.
 struct SamplePiece {
   std::size_t first = 0;

@@ -103,6 +103,26 @@ class BearingTable(RotorTest):
         self.assertLess(worst[1], 0.3 * worst[0])
         self.assertLess(worst[2], 0.3 * worst[1])
 
+    def test_an_exact_table_has_no_errors_between_its_rows(self):
+        self.write("bearing.csv", table(8))
+        stated, exact = (self.trace_text(with_table(more), output=output, tolerance=1e-9)
+                         for more, output in (("", "stated.h5"), ("\nexact = true", "exact.h5")))
+        with h5py.File(stated) as one, h5py.File(exact) as other:
+            self.assertIn("interpolation_error", one)
+            self.assertNotIn("interpolation_error", other)
+            self.assertNotIn("event_interval", other)
+        self.assert_within(self.chosen(exact, [700.0, 4000.0]), self.chosen(stated, [700.0, 4000.0]), 1e-12)
+
+    def test_a_degree_may_be_given(self):
+        self.write("bearing.csv", table(8))
+        self.write("rotor.toml", with_table("\ndegree = 2"))
+        self.assertIn("interpolant of degree 2;", self.run_well("explain", "rotor.toml"))
+        file = self.trace_text(with_table("\ndegree = 2\nexact = true"), tolerance=1e-9)
+        # Blended parabolas are off by more than what is chosen.
+        worse = abs(self.chosen(file, [700.0]) - self.chosen(self.closed(), [700.0])).max()
+        better = abs(self.chosen(self.traced(8), [700.0]) - self.chosen(self.closed(), [700.0])).max()
+        self.assertGreater(worse, 3.0 * better)
+
     def test_critical_speeds_lie_in_their_intervals(self):
         exact = sorted(p for p, _ in self.special_points(self.closed(), "resonance"))
         file = self.traced(6)

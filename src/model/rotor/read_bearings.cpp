@@ -7,6 +7,7 @@
 #include "eigentrail/core/text.hpp"
 #include "model/coefficient_table.hpp"
 #include "model/rotor/rotor_draft.hpp"
+#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -97,15 +98,22 @@ BearingCoefficients read_coefficients(RotorDraft& rotor, TableReader& table,
 /// The table of a bearing over its argument: the speed of the shaft, or the expression `over`.
 std::optional<CoefficientTable> read_columns(RotorDraft& rotor, TableReader& table, const NodePlace& place) {
   if (!table.has("table")) {
-    if (table.has("over")) table.fail("over", "is the argument of a table; there is no 'table'");
+    for (const auto& [key, what] : {std::pair{"over", "is the argument"},
+                                    {"degree", "is of the interpolant"},
+                                    {"exact", "is a property"}}) {
+      if (table.has(key)) table.fail(key, std::string(what) + " of a table; there is no 'table'");
+    }
     return std::nullopt;
   }
   const Expression argument = table.has("over")
                                   ? rotor.draft.read_number(table, "over", std::nullopt, Range::any)
                                   : rotor.shafts[place.shaft].speed;
   const CsvTable csv = read_csv(rotor.draft.scene, table, "table");
+  TableColumns known = bearing_columns(table.has("over") ? "" : "rad/s");
+  if (table.has("degree")) known.degree = whole_number(table, "degree", 1, highest_degree);
+  if (table.has("exact")) known.exact = table.flag("exact");
   try {
-    CoefficientTable columns = tabulate(csv, argument, bearing_columns(table.has("over") ? "" : "rad/s"));
+    CoefficientTable columns = tabulate(csv, argument, known);
     for (std::size_t i = 0; i < rotor.draft.check_at.size(); ++i) {
       const double at = rotor.draft.check_values(argument)[i];
       if (const std::string fault = columns.outside(at); !fault.empty())

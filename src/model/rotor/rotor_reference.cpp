@@ -66,7 +66,10 @@ std::vector<EffectHelp> rotor_reference() {
        {"table", "CSV file",
         "coefficients over the speed: first column the speed (\"speed [rpm]\"), then columns such as kxx",
         "none"},
-       {"over", "expression", "what the first column of the table is", "the speed of the shaft"}}};
+       {"over", "expression", "what the first column of the table is", "the speed of the shaft"},
+       {"degree", "whole number", "degree of the polynomials between the rows, 1 to 15, without poles",
+        "chosen by leaving out rows"},
+       {"exact", "true or false", "the interpolant is what is meant: no errors between the rows", "false"}}};
   EffectHelp support{"support",
                      "holds freedoms of a node of a shaft",
                      {{"node", "node", node},

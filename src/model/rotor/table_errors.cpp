@@ -103,7 +103,7 @@ std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pen
   std::size_t coefficient = 0;
   for (const auto* terms : {&pencil.M, &pencil.C, &pencil.K}) {
     for (const AffineTerm<Matrix>& term : *terms) {
-      if (!term.table) continue;
+      if (!term.table || term.table->is_exact()) continue;
       const int argument = parameter_of(term.factor);
       if (argument < 0 || (parameter >= 0 && parameter != argument)) return nullptr;
       parameter = argument;

@@ -11,12 +11,14 @@ namespace eigentrail {
 
 class TabulatedFactor {
  public:
-  /// `values`: at the nodes of the interpolant, which all columns of a table share.
-  TabulatedFactor(std::shared_ptr<const SamplePiece> piece, std::vector<double> values)
-      : piece_(std::move(piece)), values_(std::move(values)) {}
+  /// `values`: at the nodes of the interpolant, which all columns of a table share. `exact`: the interpolant
+  /// is the function itself.
+  TabulatedFactor(std::shared_ptr<const SamplePiece> piece, std::vector<double> values, bool exact)
+      : piece_(std::move(piece)), values_(std::move(values)), is_exact_(exact) {}
 
   const std::shared_ptr<const SamplePiece>& piece() const { return piece_; }
   const std::vector<double>& values() const { return values_; }
+  bool is_exact() const { return is_exact_; }
 
   /// The function at x, a number or a power series about one; not a number outside the table.
   template <class Scalar>
@@ -35,6 +37,7 @@ class TabulatedFactor {
  private:
   std::shared_ptr<const SamplePiece> piece_;
   std::vector<double> values_;
+  bool is_exact_;
 };
 
 }  // namespace eigentrail
