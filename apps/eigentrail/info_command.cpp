@@ -98,8 +98,8 @@ void print_for_people(const LociFile& loci) {
   std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)%s\n", loci.parameter.c_str(),
               exact_text(loci.p.front()).c_str(), exact_text(loci.p.back()).c_str(),
               loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(),
-              attribute(loci, "tolerance").c_str(),
-              rounded(loci.number("reference"), 4).c_str(), order_of_series(loci).c_str());
+              attribute(loci, "tolerance").c_str(), rounded(loci.number("reference"), 4).c_str(),
+              order_of_series(loci).c_str());
   std::vector<std::vector<std::string>> rows{{"mode", "what moves", "s at the start", "s at the end",
                                               "certified", "worst residual", "worst condition"}};
   const std::vector<Permanence> permanence = permanence_of_modes(loci);

@@ -79,7 +79,7 @@ std::string unknown_option(const CLI::App& program, const CLI::App& command, con
     if (std::find(options.begin(), options.end(), name) != options.end())
       others += (others.empty() ? "" : ", ") + other->get_name();
   }
-  if (!others.empty()) return text + "the commands " + others + " have it";
+  if (!others.empty()) return text + "it is an option of " + others;
   return text + suggestion(name, options_of(command));
 }
 

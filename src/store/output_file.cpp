@@ -75,6 +75,7 @@ class PartialFile {
   }
 
   void take_place(Existing existing) {
+    file_.unlock();
     if (existing == Existing::replace) {
       keep_permissions();
       if (rename(name_.c_str(), target_.c_str()) != 0) fail(path_);

@@ -45,6 +45,10 @@ LockedFile::LockedFile(const std::string& name, const std::string& path) {
   }
 }
 
+void LockedFile::unlock() const {
+  flock(descriptor_, LOCK_UN);
+}
+
 LockedFile::~LockedFile() {
   close(descriptor_);
 }

@@ -17,6 +17,8 @@ class LockedFile {
   LockedFile& operator=(const LockedFile&) = delete;
 
   int descriptor() const { return descriptor_; }
+  /// For readers that lock what they read, as HDF5 does.
+  void unlock() const;
   /// Why the file system offers no locks, as an error number; 0: the file is locked.
   int lock_error() const { return lock_error_; }
 

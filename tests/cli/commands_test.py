@@ -39,7 +39,7 @@ class UnknownNames(CommandTest):
         for command, *fragments in ((["trace", "scene.toml", "--tolerence", "1e-8"], "unknown option '--tolerence'; did you mean '--tolerance'?",
                                      "(see eigentrail trace --help)"),
                                     (["trace", "scene.toml", "--tolerence=1e-8"], "did you mean '--tolerance'?"),
-                                    (["trace", "scene.toml", "--harmonics", "2"], "unknown option '--harmonics'; it is one of plot"),
+                                    (["trace", "scene.toml", "--harmonics", "2"], "unknown option '--harmonics'; it is an option of plot"),
                                     (["eval", "loci.h5", "--ta", "3"], "did you mean '--at'?", "(see eigentrail eval --help)"),
                                     (["import", "numpy", "a.npz", "--digit", "3"], "did you mean '--digits'?", "(see eigentrail import numpy --help)"),
                                     (["trace"], "SCENE is required", "(see eigentrail trace --help)"),

@@ -103,7 +103,7 @@ GENERAL = [
     row("command in capitals", ["TRACE", "scene.toml"], "unknown command 'TRACE'"),
     row("empty command", [""], "unknown command ''"),
     row("command of two lines", ["tr\nace"], "unknown command 'tr ace'"),
-    row("option in place of a command", ["--tolerance", "1e-6"], "command"),
+    row("option in place of a command", ["--tolerance", "1e-6"], "it is an option of suggest, trace"),
     row("scene in place of a command", ["scene.toml"], "unknown command 'scene.toml'"),
     row("option of two lines", [*TRACE, "--tole\nrance"], "--tole"),
     row("two commands", ["info", "events", "loci.h5"], "loci.h5"),

@@ -1,6 +1,7 @@
 // Sampled families for tests: functions p -> A(p) sampled at values of p.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <random>
 
@@ -24,6 +25,7 @@ class SampledScene {
  public:
   explicit SampledScene(const SampledData& data, const std::string& keys = "",
                         const std::string& trace = "") {
+    std::filesystem::remove(file());
     write_samples(file(), data);
     const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
     text_ = "[sampled_family]\nfile = \"samples.h5\"\n" + keys + "[trace]\nparameter = \"p\"\n" +

@@ -14,7 +14,8 @@ enum class Permanence {
   zero       ///< it is zero within rounding, at every point
 };
 
-/// The permanence of every mode of the path. A mode that has fewer than three points counts as one that moves.
+/// The permanence of every mode of the path. A mode that has fewer than three points counts as one that
+/// moves.
 std::vector<Permanence> permanence_of_modes(const RecordedPath& path, const EigenvalueAccuracy& accuracy);
 
 }  // namespace eigentrail
