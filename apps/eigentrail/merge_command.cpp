@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "parts.hpp"
+#include "scene_arguments.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -16,12 +18,18 @@ int run_merge(const MergeArguments& arguments, Team& team) {
   std::vector<PartFile> parts;
   for (const std::string& file : arguments.files) parts.push_back(read_part_file(file));
   const std::vector<std::string> pieces = joined(parts);
-  const SharedRun& run = parts.front().run;
+  const PartFile& first = parts.front();
+  const SharedRun& run = first.run;
+  const auto other = std::find_if(parts.begin(), parts.end(), [&first](const PartFile& part) {
+    return part.blas_kernel != first.blas_kernel;
+  });
+  if (other != parts.end() && team.leads())
+    warn(other->path + ": was computed with the kernel " + other->blas_kernel + " of BLAS, " + first.path +
+         " with " + first.blas_kernel + "; the last digits differ from those of a run on one machine");
   if (run.command == "map") return merge_map(run, pieces, arguments.output, team);
   if (run.command == "boundary") return merge_boundary(run, pieces, arguments.output, team);
   if (run.command == "sweep") return merge_sweep(run, pieces, arguments.output, team);
-  throw InputError(parts.front().path + ": is a part of '" + run.command +
-                   "', which this version cannot join");
+  throw InputError(first.path + ": is a part of '" + run.command + "', which this version cannot join");
 }
 
 }  // namespace

@@ -7,13 +7,10 @@
 #include "eigentrail/scene/settings.hpp"
 
 namespace eigentrail::app {
-namespace {
 
 void warn(const std::string& message) {
   std::fprintf(stderr, "eigentrail: warning: %s\n", printable(message).c_str());
 }
-
-}  // namespace
 
 void add_settings(CLI::App& command, SceneArguments& arguments) {
   command

@@ -24,6 +24,9 @@ void add_settings(CLI::App& command, SceneArguments& arguments);
 Scene given_scene(const SceneArguments& arguments);
 Scene with_settings_of(const SceneArguments& arguments, Scene scene);
 
+/// Prints a warning on stderr.
+void warn(const std::string& message);
+
 /// Prints a warning, on stderr, for each parameter on which nothing in the scene depends.
 void warn_of_unused(const Scene& scene, const Model& model);
 

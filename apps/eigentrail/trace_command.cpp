@@ -54,6 +54,9 @@ class TraceRun {
     recorder_ = PathRecorder(saved.path);
     writer_.emplace(arguments_.output, *setup_.model, setup_.options, saved, arguments_.saving);
     note_save();
+    if (!saved.other_kernel.empty())
+      warn(arguments_.output + ": was computed with another kernel of BLAS (" + saved.other_kernel +
+           "); the last digits differ from those of a trace on one machine");
     return guarded([&] { result_ = resume_trace(*setup_.model, setup_.options, observer(), saved.trace); });
   }
 

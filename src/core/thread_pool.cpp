@@ -5,7 +5,7 @@
 #include <exception>
 #include <system_error>
 
-#include "core/blas_buffers.hpp"
+#include "core/blas.hpp"
 
 namespace eigentrail {
 

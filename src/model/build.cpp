@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/blas_buffers.hpp"
+#include "core/blas.hpp"
 #include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/matrix_family.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/archive.hpp"
+#include "core/blas.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/modes/normalization.hpp"
 #include "eigentrail/modes/whirl.hpp"
@@ -149,6 +150,9 @@ LociWriter::LociWriter(const std::string& path, const Model& model, const TraceO
                                            saving,
                                            {}});
   implementation_->saving.existing = Existing::replace;
+  const std::string& other = saved.other_kernel;
+  if (!other.empty() && !other.ends_with(blas_kernel()))
+    implementation_->tables.file().set_attribute("blas_kernel", other + ", " + blas_kernel());
   try {
     ArchiveReader archive(saved.writer);
     archive(implementation_->last_shapes, implementation_->motions, implementation_->events);

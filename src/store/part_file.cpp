@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/archive.hpp"
+#include "core/blas.hpp"
 #include "core/fingerprint.hpp"
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
@@ -113,9 +114,9 @@ void write_part(const PartFile& file, Existing existing) {
   head.set_attribute("scene_path", file.run.scene_path);
   head.set_attribute("part", std::int64_t{file.part.number});
   head.set_attribute("part_count", std::int64_t{file.part.count});
-  const std::string pieces =
-      packed(file.run.command, file.run.scene_path, file.run.settings,
-             static_cast<std::uint64_t>(file.run.n_pieces), file.part.number, file.part.count, file.pieces);
+  const std::string pieces = packed(file.run.command, file.run.scene_path, file.run.settings,
+                                    static_cast<std::uint64_t>(file.run.n_pieces), file.part.number,
+                                    file.part.count, file.pieces, blas_kernel());
   const std::string bytes = head.image() + pieces;
   PartMark mark{{}, pieces.size(), fingerprint(bytes)};
   std::copy(PartMark::text.begin(), PartMark::text.end(), mark.name.begin());
@@ -147,7 +148,7 @@ PartFile read_part_file(const std::string& path) {
         throw InputError(path + ": was written by eigentrail " + printable(text) + ", this is " + version() +
                          "; merge with the version that wrote the parts");
     }
-    archive(n_pieces, file.part.number, file.part.count, file.pieces);
+    archive(n_pieces, file.part.number, file.part.count, file.pieces, file.blas_kernel);
     archive.finish();
   } catch (const ArchiveError&) {
     throw damaged;

@@ -1,5 +1,6 @@
 #include "store/provenance.hpp"
 
+#include "core/blas.hpp"
 #include "eigentrail/core/version.hpp"
 
 namespace eigentrail {
@@ -9,6 +10,7 @@ void write_provenance(Hdf5Writer& file, const std::string& format, int schema_ve
   file.set_attribute("format", format);
   file.set_attribute("schema_version", std::int64_t{schema_version});
   file.set_attribute("program_version", version());
+  file.set_attribute("blas_kernel", blas_kernel());
   file.set_attribute("title", scene.title);
   file.set_attribute("scene", scene.text);
   file.set_attribute("scene_path", scene.path);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/archive.hpp"
+#include "core/blas.hpp"
 #include "core/fingerprint.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -88,6 +89,8 @@ std::optional<SavedTrace> read_saved_trace(const std::string& path, const Scene&
   try {
     SavedTrace saved = split(path, bytes_of_file(path));
     saved.path = static_cast<const RecordedPath&>(loci);
+    const std::string& kernel = loci.attribute("blas_kernel");
+    if (kernel != blas_kernel()) saved.other_kernel = kernel;
     return saved;
   } catch (const ArchiveError& error) {
     throw InputError(path + ": cannot be resumed: the state of the trace is damaged: " + error.what());

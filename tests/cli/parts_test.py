@@ -72,6 +72,14 @@ class Parts(ProgramTest):
         self.assertIn("7 x 9 cells: drag 0.5 -> 20", said)
         self.assertTrue(said.endswith("wrote map.h5\n"))
 
+    def test_parts_of_other_kernels_of_blas_are_joined_with_a_warning(self):
+        first = self.parts(MAP, 2)[0]
+        with unittest.mock.patch.dict(os.environ, OPENBLAS_CORETYPE="Prescott"):
+            second = self.parts(MAP, 2, "other")[1]
+        run = self.run_program("merge", first, second, "-o", "merged.h5", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stderr, rf"^eigentrail: warning: {second}: was computed with the kernel Prescott of BLAS, {first} with .*\n$")
+
     def test_maps_are_joined_without_the_files_of_the_scene(self):
         self.write("scene.toml", FAMILY.replace("[matrix_family]", '[parameters]\np = 0.0\nq = 1.0\n[matrix_family]')
                    .replace("K = [[[1, 0], [0, 2]]", 'K = [[["q", 0], [0, 2]]'))

@@ -241,8 +241,8 @@ class Interrupted(ProgramTest):
         self.run_well("trace", "scene.toml", "-o", "out.h5", "--quiet", "--resume")
         self.assertEqual(differences(self.folder / "out.h5", self.whole()), [])
 
-    def interrupted_file(self):
-        run = self.start()
+    def interrupted_file(self, **settings):
+        run = self.start(**settings)
         self.wait_for("out.h5")
         run.kill()
         run.communicate()
@@ -261,6 +261,18 @@ class Interrupted(ProgramTest):
             file.attrs["program_version"] = "0.0.1"
         self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume"),
                             ["was written by eigentrail 0.0.1, this is "])
+
+    def test_another_kernel_of_blas_is_said_and_recorded(self):
+        def kernel():
+            with h5py.File(self.folder / "out.h5") as file:
+                return file.attrs["blas_kernel"]
+
+        self.interrupted_file(env={**os.environ, "OPENBLAS_CORETYPE": "Prescott"})
+        self.assertEqual(kernel(), "Prescott")
+        resumed = self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume", "--quiet")
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.assertRegex(resumed.stderr, r"^eigentrail: warning: out.h5: was computed with another kernel of BLAS \(Prescott\).*\n$")
+        self.assertRegex(kernel(), r"^Prescott, \w+$")
 
     def test_damaged_state_is_refused(self):
         self.interrupted_file()

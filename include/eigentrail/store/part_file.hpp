@@ -38,6 +38,7 @@ struct PartFile {
   SharedRun run;
   Part part;
   std::vector<std::string> pieces;  ///< results, in the order of Part::pieces
+  std::string blas_kernel = {};     ///< with which they were computed; write_part sets it
 };
 
 /// The settings that every run has: version of the program, scene, and the contents of the files that the

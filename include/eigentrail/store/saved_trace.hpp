@@ -14,6 +14,8 @@ struct SavedTrace {
   std::string writer;  ///< state of the LociWriter
   std::string image;   ///< bytes of the HDF5 data
   RecordedPath path;   ///< points and steps that were computed
+  /// Kernels of BLAS with which they were computed, if not all are those of this processor; otherwise empty.
+  std::string other_kernel = {};
 };
 
 /// Reads the state of an unfinished trace; empty if the trace was finished. Throws InputError if the file

@@ -16,7 +16,7 @@ namespace {
 
 /// Attributes that differ between runs, or hold what other comparisons look at.
 bool is_compared(const std::string& attribute) {
-  static const std::set<std::string> others{"seconds", "program_version", "scene_path"};
+  static const std::set<std::string> others{"seconds", "program_version", "scene_path", "blas_kernel"};
   return !attribute.starts_with("count_") && !others.contains(attribute);
 }
 

@@ -1,4 +1,4 @@
-#include "core/blas_buffers.hpp"
+#include "core/blas.hpp"
 
 #include <sys/mman.h>
 
@@ -7,8 +7,9 @@
 #include <vector>
 
 // Defined only if LAPACK is OpenBLAS.
-extern "C" void* blas_memory_alloc(int) __attribute__((weak));  // NOLINT: its name
-extern "C" void blas_memory_free(void*) __attribute__((weak));  // NOLINT
+extern "C" void* blas_memory_alloc(int) __attribute__((weak));   // NOLINT: its name
+extern "C" void blas_memory_free(void*) __attribute__((weak));   // NOLINT
+extern "C" char* openblas_get_corename() __attribute__((weak));  // NOLINT
 
 namespace eigentrail {
 namespace {
@@ -34,6 +35,10 @@ bool blas_has_memory_for(std::size_t threads) {
   for (void* const buffer : taken) blas_memory_free(buffer);
   known = std::max(known, taken.size());
   return taken.size() == threads;
+}
+
+std::string blas_kernel() {
+  return openblas_get_corename == nullptr ? "other" : openblas_get_corename();
 }
 
 }  // namespace eigentrail
