@@ -229,7 +229,7 @@ TEST(SampledFamily, StatesAreMatchedByNameWhereTheirOrderChanges) {
     file.write_rows("A", 0, numbers);
     file.create_dataset({"state_names", ElementType::text, {6, 2}, false, {}});
     file.write_rows("state_names", 0, names);
-    write_durably(scene.file(), {file.image()});
+    write_durably(scene.file(), {file.image()}, Existing::replace);
   }
   const SampledData read = read_samples(scene.file());
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(read.A[i], data.A[i]) << i;

@@ -59,15 +59,6 @@ ComplexVector ordered_by_modes(const ComplexVector& roots, const DenseBlock& blo
   return ordered;
 }
 
-/// Whether a difference of two roots has turned by more than 90 degrees. A crossing on the imaginary axis
-/// that rounding opens turns it by exactly so much, twice: then the roots keep their sides.
-bool has_turned(Complex before, Complex after) {
-  const double cosine = (std::conj(before) * after).real();
-  if (cosine != 0.0) return cosine < 0.0;
-  const auto side = [](Complex difference) { return difference.real() + difference.imag() > 0.0; };
-  return side(before) != side(after);
-}
-
 /// Roots of `to` in the order of `from`, the roots a short piece before. A motion of the mean is subtracted
 /// first. Then two roots are exchanged if their difference is small and has turned by more than 90 degrees.
 ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
@@ -77,8 +68,8 @@ ComplexVector continued(const ComplexVector& from, const ComplexVector& to) {
   for (Eigen::Index i = 0; i < roots.size(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       const Complex difference = roots[i] - roots[j];
-      if (has_turned(from[i] - from[j], difference) && std::abs(difference) < moved)
-        std::swap(roots[i], roots[j]);
+      const bool turned = (std::conj(from[i] - from[j]) * difference).real() < 0.0;
+      if (turned && std::abs(difference) < moved) std::swap(roots[i], roots[j]);
     }
   }
   return roots;
