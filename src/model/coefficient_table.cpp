@@ -143,7 +143,7 @@ std::string CoefficientTable::in_words() const {
                      short_number(nodes.front() / factor) + " to " + short_number(nodes.back() / factor) +
                      (first_unit.empty() ? "" : " " + first_unit) + ", interpolant of degree " +
                      std::to_string(piece->interpolant.degree());
-  if (exact) return text + ", taken as exact";
+  if (columns.front().second->is_exact()) return text + ", taken as exact";
   if (std::isnan(error)) return text + "; too few rows to tell its error";
   return text + "; a row that is left out is missed by " + short_number(error) + " of the largest " + worst +
          " at most";
@@ -157,7 +157,6 @@ CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const
   table.first_name = first.name;
   table.first_unit = first.unit;
   table.factor = factor_of_argument(csv, known.unit);
-  table.exact = known.exact;
   std::vector<double> nodes = first.values;
   for (double& node : nodes) node *= table.factor;
   check_ascending(csv, nodes);

@@ -30,8 +30,7 @@ struct CoefficientTable {
   /// Largest error of a column at a row that is left out, relative to the largest value of the column; NaN
   /// with fewer than four rows.
   double error = 0.0;
-  std::string worst;   ///< the column that has it
-  bool exact = false;  ///< TableColumns::exact
+  std::string worst;  ///< the column that has it
 
   std::shared_ptr<const TabulatedFactor> find(const std::string& key) const;
   /// Why the argument (SI) cannot be looked at; empty if it lies within the table.

@@ -5,6 +5,7 @@
 
 #include "eigentrail/core/text.hpp"
 #include "model/gauss_points.hpp"
+#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -58,11 +59,7 @@ ExpressionVector read_lift(Draft& draft, TableReader& table, const ExpressionVec
 }
 
 int read_strip_count(TableReader& table, int otherwise) {
-  const Expression count = table.expression_or("strips", otherwise);
-  const double n = count.is_constant() ? count.evaluate(std::span<const double>()) : 0.0;
-  if (!(n >= 1.0) || n > most_strips || n != std::floor(n))
-    table.fail("strips", "expected a whole number from 1 to " + std::to_string(most_strips));
-  return static_cast<int>(n);
+  return table.has("strips") ? whole_number(table, "strips", 1, most_strips) : otherwise;
 }
 
 std::vector<std::pair<BladeElement, std::string>> read_strips(
