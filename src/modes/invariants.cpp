@@ -192,17 +192,17 @@ Vector root_resolutions(const ComplexVector& functions, const ComplexVector& roo
   const Eigen::Index k = roots.size();
   if (k <= 2) return Vector::Zero(k);
   const ComplexMatrix Lambda = functions.reshaped(k, k);
+  const double error = rounding * Lambda.norm();
+  const Vector errors = first_order_errors(Lambda, roots, error);
+  const Eigen::Index unknown = (errors.array() == INFINITY).count();
+  if (unknown == 0) return Vector::Zero(k);
   // Departure from normality (Henrici 1962).
   const double departure = std::sqrt((Lambda * Lambda.adjoint() - Lambda.adjoint() * Lambda).norm());
-  // In blocks of a few, two of them nearly always meet at a time. Larger blocks are formed at exceptional
-  // points of their order.
+  // Of a few, two nearly always meet at a time. Larger blocks are formed at exceptional points of their
+  // order.
   constexpr Eigen::Index few = 6;
-  const double order = k <= few ? 0.5 : 1.0 / static_cast<double>(k);
-  const double resolution = std::pow(rounding * Lambda.norm(), order) * std::pow(departure, 1.0 - order);
-  if ((roots.array() - roots.mean()).abs().maxCoeff() > resolution) return Vector::Zero(k);
-  if (k <= few) return Vector::Constant(k, resolution);
-  // Eigenvalues of a large block that come close without being defective are known one by one.
-  const Vector errors = first_order_errors(Lambda, roots, rounding * Lambda.norm());
+  const double order = unknown <= few ? 0.5 : 1.0 / static_cast<double>(unknown);
+  const double resolution = std::pow(error, order) * std::pow(departure, 1.0 - order);
   return (errors.array() < INFINITY).select(Vector::Zero(k), Vector::Constant(k, resolution));
 }
 

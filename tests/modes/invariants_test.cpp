@@ -309,6 +309,26 @@ TEST(RootResolution, IsThatOfADefectiveBlockOnly) {
   EXPECT_GT(root_resolutions(defective, block_roots(defective)).minCoeff(), 1e-3);
 }
 
+/// A disc that rolls: yaw and its rate are a Jordan block at zero, which rounding splits, and lean is a pair
+/// that does not meet it.
+TEST(RootResolution, IsThatOfTheTwoThatCoincideOnly) {
+  ComplexMatrix Lambda = ComplexMatrix::Zero(4, 4);
+  Lambda(0, 1) = 1.0;
+  Lambda(1, 0) = 6.4e-23;  // roots +- 8e-12
+  Lambda(2, 3) = 1.0;
+  Lambda(3, 2) = -0.25;
+  const ComplexVector functions = Lambda.reshaped();
+  const ComplexVector roots = block_roots(functions);
+  const Vector known = root_resolutions(functions, roots);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    if (std::abs(roots[i]) < 0.1) {
+      EXPECT_GT(known[i], 1.6e-11);
+    } else {
+      EXPECT_EQ(known[i], 0.0);
+    }
+  }
+}
+
 TEST(SeriesOfVectors, ReciprocalTimesItselfIsOne) {
   const ComplexVector series = random_block(6, 2).col(0);
   const ComplexVector one = multiply_series(series, reciprocal_series(series));

@@ -47,11 +47,10 @@ Vector root_errors(const ComplexVector& functions, const ComplexVector& roots, c
 bool are_told_apart(const ComplexVector& functions, const ComplexVector& roots, const Vector& errors);
 
 /// Distances (1/s) below which the eigenvalues of a block cannot be distinguished, in the order of `roots`:
-/// two of them below the lesser one. Nonzero only for blocks of three and more whose `roots` all coincide
-/// within rounding, for example several rigid-body modes or an exceptional point of that order. A matrix of
+/// two of them below the lesser one. Nonzero only for those of blocks of three and more that rounding does
+/// not separate from another one, for example several rigid-body modes or an exceptional point. A matrix of
 /// size k that is far from normal determines its eigenvalues only to the k-th root of its rounding error
-/// (Henrici, Numer. Math. 4, 1962); up to six are taken to meet two at a time, with the square root. In
-/// larger blocks zero for those that are known by themselves.
+/// (Henrici, Numer. Math. 4, 1962); up to six are taken to meet two at a time, with the square root.
 Vector root_resolutions(const ComplexVector& functions, const ComplexVector& roots);
 
 /// The values `to` in the order of `from`: the assignment with the least total distance.

@@ -99,6 +99,19 @@ class Differences {
     });
   }
 
+  /// Whether a shorter piece may distinguish what this one does not: not two roots that coincide within
+  /// rounding at its middle or its end, where the roots are known to within `resolutions`.
+  bool may_be_resolved(const std::array<const ComplexVector*, 3>& sets,
+                       const std::array<Vector, 2>& resolutions) const {
+    return !all_pairs([&](Eigen::Index i, Eigen::Index j) {
+      const auto coincide = [&](std::size_t k) {
+        const double known = std::min(resolutions[k][i], resolutions[k][j]);
+        return known > 0.0 && std::abs((*sets[k + 1])[i] - (*sets[k + 1])[j]) <= 2.0 * known;
+      };
+      return change(sets, i, j) <= 1.0 || coincide(0) || coincide(1);
+    });
+  }
+
   /// Records the pairs of roots that could not be distinguished on a piece that is not halved further.
   void accept(const std::array<const ComplexVector*, 3>& sets) {
     all_pairs([&](Eigen::Index i, Eigen::Index j) {
@@ -268,12 +281,10 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
     work += 2 * static_cast<std::size_t>(roots.size());
     const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
-    const auto coincide = [&](double place, const ComplexVector& there) {
-      return root_resolutions(functions(place), there).maxCoeff() > 0.0;
-    };
-    // Where they coincide within rounding, shorter pieces distinguish nothing.
     const auto may_halve = [&] {
-      return std::abs(piece) > shortest && !coincide(t + 0.5 * piece, middle) && !coincide(t + piece, ahead);
+      return std::abs(piece) > shortest &&
+             differences.may_be_resolved(sets, {root_resolutions(functions(t + 0.5 * piece), middle),
+                                                root_resolutions(functions(t + piece), ahead)});
     };
     if (!differences.are_resolved(sets) && may_halve()) {
       piece *= 0.5;
