@@ -34,6 +34,15 @@ const Matrix& ConstraintFactorization::null_basis() const {
   return sparse_ ? sparse_->null_basis() : null_basis_;
 }
 
+Matrix ConstraintFactorization::dependences() const {
+  const Eigen::Index m = row_scale_.size();
+  if (rank_ == m) return Matrix::Zero(m, 0);
+  // (D A)^T P = Q T Z: the last columns of P Z^T give zero
+  Matrix result = Matrix::Identity(m, m).rightCols(m - rank_);
+  result = decomposition_.matrixZ().transpose() * result;
+  return row_scale_.asDiagonal() * (decomposition_.colsPermutation() * result);
+}
+
 Matrix ConstraintFactorization::allowed_part(const Matrix& X) const {
   return sparse_ ? sparse_->allowed_part(X) : Matrix(null_basis_ * (null_basis_.transpose() * X));
 }

@@ -40,7 +40,7 @@ void check_top_level(const Scene& scene) {
     if (scene.root.find(name) != nullptr) family = name;
   }
   if (family.empty()) {
-    known.insert(known.end(), {"matrix_family", "sampled_family"});
+    known.insert(known.end(), {"matrix_family", "sampled_family", "reactions"});
     for (const EffectHelp& effect : effect_reference()) known.push_back(effect.name);
   } else if (family != "shaft") {
     known.push_back(family);

@@ -313,8 +313,22 @@ std::vector<SpinningAxis> spinning_axes(const Draft& draft) {
   return result;
 }
 
+/// How dependent constraints share the load: whether by least squares.
+bool read_reactions(const Scene& scene) {
+  const Value* value = scene.root.find("reactions");
+  if (value == nullptr) return false;
+  const auto* how = std::get_if<std::string>(&value->data);
+  if (how == nullptr || *how != "least squares")
+    throw scene_error(scene, value->where,
+                      "reactions: expected \"least squares\", found " +
+                          (how == nullptr ? value->kind() : '"' + *how + '"') +
+                          "; leave it out unless constraints say the same twice");
+  return true;
+}
+
 ModelDescription describe(const Draft& draft) {
   ModelDescription description;
+  description.shares_reactions = read_reactions(draft.scene);
   const auto add = [&](const std::string& name, const char* unit) {
     for (const char* axis : {".x", ".y", ".z"}) {
       description.coordinate_names.push_back(name + axis);

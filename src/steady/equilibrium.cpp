@@ -11,6 +11,7 @@
 #include "eigentrail/steady/relaxation.hpp"
 #include "steady/error_oriented_newton.hpp"
 #include "steady/load_steps.hpp"
+#include "steady/redundancy.hpp"
 #include "steady/rounding.hpp"
 
 namespace eigentrail {
@@ -386,6 +387,13 @@ Equilibrium solve_from(const Model& model, const Vector& parameters, const Vecto
   result.report.iterations = kinsol.iterations;
   const auto last = std::pair(result.x, result.lambda);
   const bool polished = polish(problem, scales, result);
+  if (polished && shares_reactions(model, result.kkt.constraints())) {
+    result.lambda = least_squares_multipliers(result);
+    if (const auto fault = problem.linearize(result.x, result.lambda, result.linearization))
+      return not_finite(std::move(result), fault);
+    if (problem.trim(trim)) return result;
+    result.kkt = problem.factor(result.linearization, trim);
+  }
   // Undamped Newton corrections far from a solution may diverge: after a failure the result is KINSOL's last
   // iterate.
   if (!polished) std::tie(result.x, result.lambda) = last;
@@ -509,11 +517,15 @@ EvaluationFault differentiate_equilibrium(const Model& model, const Equilibrium&
   const KktFactorization& kkt = equilibrium.kkt.can_solve() ? equilibrium.kkt : complete;
   SteadyResidual residual;
   Vector dx, dl;
+  std::optional<LeastSquaresSeries> shared;
+  if (shares_reactions(model, kkt.constraints())) shared.emplace(equilibrium);
   for (int k = 1; k <= order; ++k) {
     if (auto fault = model.residual(path, k, residual, counts)) return fault;
     kkt.solve(-residual.force.col(k), -residual.constraint.col(k), dx, dl);
     path.x.col(k) = dx;
     path.lambda.col(k) = dl;
+    if (!shared) continue;
+    if (auto fault = shared->complete(model, k, path, counts)) return fault;
   }
   return {};
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,6 +16,10 @@ namespace {
 
 constexpr int most_projections = 50;
 constexpr double on_manifold = 1e-10;  ///< largest |c| relative to |A row| times the length
+/// Projections go on below it as long as each reduces c to this share: the rank of constraints that are
+/// dependent only on the manifold shows at rounding.
+constexpr double fast_projection = 0.1;
+constexpr double least_regularization = 1e-14;  ///< of the unit diagonal, for dependent rows
 /// Fraction of its initial value by which the force along a step may reverse.
 constexpr double overshoot = 0.3;
 constexpr double first_delta = 1.0;  ///< in units of the largest entry of K
@@ -30,6 +35,25 @@ struct RelaxedPlace {
   double force = 0.0;  ///< norm of the forces f
 };
 
+/// The Levenberg-Marquardt correction for c = `error` with rows of A scaled to unit length. The
+/// regularization by |c| converges fast also where rows are dependent on the manifold, and only there
+/// (Yamashita & Fukushima, Computing Suppl. 15, 2001): beside it pivots of the size of c say nothing.
+Vector regularized_correction(const SystemMatrix& A, const Vector& error, const Vector& rows, double length) {
+  const Vector scale = rows.unaryExpr(&positive_or_one).cwiseInverse();
+  const Vector miss = scale.cwiseProduct(error);
+  const double mu = std::max(miss.norm() / length, least_regularization);
+  if (A.is_sparse()) {
+    const SparseMatrix S = scale.asDiagonal() * A.sparse();
+    SparseMatrix normal = S * SparseMatrix(S.transpose());
+    normal.diagonal().array() += mu;
+    return -(S.transpose() * Eigen::SimplicialLDLT<SparseMatrix>(normal).solve(miss));
+  }
+  const Matrix S = scale.asDiagonal() * A.dense();
+  Matrix normal = S * S.transpose();
+  normal.diagonal().array() += mu;
+  return -(S.transpose() * normal.llt().solve(miss));
+}
+
 class Relaxation {
  public:
   Relaxation(const Model& model, const Vector& parameters, EvaluationCounts& counts)
@@ -37,9 +61,23 @@ class Relaxation {
     path_.parameters = parameters;
   }
 
-  /// Moves x to the manifold by minimum-norm corrections, which are halved as long as they increase the
-  /// error. If that fails, `unmet()` describes the closest configuration.
+  /// Moves x to the manifold: by regularized corrections, or by those of minimum norm, which nearly parallel
+  /// constraints need. If that fails, `unmet()` describes the closest configuration.
   bool project(Vector& x, double length) {
+    Vector plain = x;
+    if (project(x, length, regularized_correction)) return true;
+    const auto minimum_norm = [](const SystemMatrix& A, const Vector& error, const Vector&,
+                                 double) -> Vector {
+      return -ConstraintFactorization(A).pseudo_inverse_times(error);
+    };
+    if (!project(plain, length, minimum_norm)) return false;
+    x = std::move(plain);
+    return true;
+  }
+
+  /// The same by corrections of one kind, which are halved as long as they increase the error.
+  template <class Correction>
+  bool project(Vector& x, double length, const Correction& correction_for) {
     double share = 1.0;
     Vector start = x;
     Vector correction = Vector::Zero(x.size());
@@ -57,7 +95,7 @@ class Relaxation {
       const Vector miss = error.cwiseAbs().cwiseQuotient((rows * length).unaryExpr(&positive_or_one));
       const double size = miss.maxCoeff();
       if (!std::isfinite(size)) return false;
-      if (size <= on_manifold) return true;
+      if (size == 0.0 || (size <= on_manifold && size >= fast_projection * last)) return true;
       if (size >= last) {
         share *= 0.5;
         if (share < 1e-3) return false;
@@ -68,7 +106,7 @@ class Relaxation {
       last = size;
       start = x;
       share = 1.0;
-      correction = -ConstraintFactorization(linearization.A[0]).pseudo_inverse_times(error);
+      correction = correction_for(linearization.A[0], error, rows, length);
       x += correction;
     }
     return false;

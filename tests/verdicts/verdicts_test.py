@@ -169,6 +169,48 @@ class Undamped(VerdictTest):
         self.assertEqual(self.events(self.trace_model("trifilar")), [])
 
 
+class Constraints(VerdictTest):
+    def test_a_stiffness_that_reactions_do_not_determine_is_refused(self):
+        result = self.run_program("trace", MODELS / "two_rods.toml", "-o", "loci.h5")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("the reactions of short and long are not unique", result.stderr)
+        self.assertIn('reactions = "least squares"', result.stderr)
+        self.assertFalse((self.folder / "loci.h5").exists())
+
+    def test_a_scene_may_share_them_by_least_squares(self):
+        # Half of the weight on each rod: s^2 = -g (1/2 + 1/4). The rods also with lengths that change with g.
+        text = (MODELS / "two_rods.toml").read_text()
+        for lengths in ((1.0, 2.0), ('"1 + 0.01*g"', '"2 + 0.01*g"')):
+            changed = text.replace("length = 1", f"length = {lengths[0]}").replace("length = 2", f"length = {lengths[1]}")
+            (self.folder / "shared.toml").write_text('reactions = "least squares"\n' + changed)
+            self.run_well("trace", "shared.toml", "-o", "loci.h5", "--quiet", "--force")
+            for g in (5.0, 11.0, 20.0):
+                extension = 0.0 if lengths[0] == 1.0 else 0.01 * g
+                exact = math.sqrt(0.5 * g * (1 / (1 + extension) + 1 / (2 + extension)))
+                for _, _, s in self.eval_rows(self.folder / "loci.h5", [g]):
+                    self.assertAlmostEqual(abs(s), exact, delta=2e-8 * exact)
+
+    def test_shares_that_change_along_the_path(self):
+        file = self.trace_model("three_rods")
+        for a in (0.5, 0.77, 1.3, 2.0):
+            c2 = 1 / (1 + a * a)
+            (_, _, s), = self.eval_rows(file, [a])
+            self.assertAlmostEqual(abs(s), math.sqrt(9.81 * (2 * c2 + 0.5) / (2 * c2 + 1)), delta=5e-8)
+
+    def test_other_words_for_sharing_are_refused(self):
+        (self.folder / "shared.toml").write_text('reactions = "equal"\n' + (MODELS / "two_rods.toml").read_text())
+        result = self.run_program("trace", "shared.toml", "-o", "loci.h5")
+        self.assertIn('shared.toml:1:', result.stderr)
+        self.assertIn('expected "least squares", found "equal"', result.stderr)
+
+    def test_a_mechanism_whose_constraints_are_dependent_on_its_path_finds_its_rest(self):
+        # Reference: an independent program (Exudyn), 1.2412987 rad/s at g = 9.81; gravity alone, so it goes with sqrt(g).
+        file = self.trace_model("bricard")
+        for g in (9.81, 20.0):
+            (_, _, s), = self.eval_rows(file, [g])
+            self.assertAlmostEqual(abs(s) / math.sqrt(g / 9.81), 1.2412987, delta=1e-7)
+
+
 class OtherPaths(VerdictTest):
     def test_a_buckled_column_is_followed_at_every_tolerance_and_order(self):
         # The tip of the buckled path at P = 130 by four elements, from its own continuation at 1e-10.

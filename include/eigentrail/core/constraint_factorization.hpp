@@ -43,6 +43,9 @@ class ConstraintFactorization {
   /// computes it, at a cost of O(n m^2).
   const Matrix& null_basis() const;
 
+  /// Basis of the combinations nu with nu^T A = 0, m x (m - rank). Only dense factors have any.
+  Matrix dependences() const;
+
   /// (I - A+ A) X: projects the columns of X (n x k) onto the null space of A, that is, onto the motions that
   /// the constraints allow.
   Matrix allowed_part(const Matrix& X) const;

@@ -135,6 +135,9 @@ struct ModelDescription {
   std::vector<SpinningShaft> shafts = {};  ///< of a rotor
   std::vector<SpinningAxis> spins = {};    ///< of discs on the bodies of a multibody model
   std::optional<BladedRotor> rotor = {};   ///< if the model has blades in multiblade coordinates
+  /// Whether dependent constraints share the load by least squares, as the scene says; else a stiffness that
+  /// depends on how they do is refused.
+  bool shares_reactions = false;
   /// What is known of the model's data, for users: a label and a text each ("digits", "4 significant").
   std::vector<std::pair<std::string, std::string>> data = {};
   /// Indices of the parameters on which nothing in the scene depends.
@@ -254,6 +257,10 @@ class Model {
   /// Values of the traced parameter (declared unit), ascending, at which the equations have a kink. A trace
   /// lands just before and just behind them; at a kink the model is that before it.
   virtual std::vector<double> kinks([[maybe_unused]] int traced_parameter) const { return {}; }
+
+  /// Values of the traced parameter (declared unit), ascending, between which the equations may change on a
+  /// small part of the range. A trace lands there.
+  virtual std::vector<double> landings([[maybe_unused]] int traced_parameter) const { return {}; }
 
   /// Errors of the eigenvalues that come from the data of the model; null if it has none of its own.
   virtual const SampleErrors* sample_errors() const { return nullptr; }

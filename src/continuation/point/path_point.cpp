@@ -8,6 +8,7 @@
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/reduction/restricted_basis.hpp"
 #include "reduction/part_copies.hpp"
+#include "steady/redundancy.hpp"
 
 namespace eigentrail {
 namespace {
@@ -105,6 +106,12 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
     return;
   }
   const StageTimer timer(counts.reduction_seconds);
+  point.message = undetermined_stiffness(problem.model, parameters_at(problem, point.p), point.equilibrium,
+                                         counts.evaluations);
+  if (!point.message.empty()) {
+    point.status = PointStatus::no_equilibrium;
+    return;
+  }
   if (problem.parts) {
     auto parts = turned(problem.parts, point.equilibrium.kkt.constraints());
     if (!parts || !falls_apart_here(problem, *parts, point)) {

@@ -22,6 +22,7 @@ std::vector<double> narrow_landings(const PathProblem& problem, const TraceOptio
     places.push_back(kink - beside);
     places.push_back(kink + beside);
   }
+  for (const double place : model.landings(problem.traced)) places.push_back(place);
   std::sort(places.begin(), places.end());
   return places;
 }
