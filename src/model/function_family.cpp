@@ -14,6 +14,8 @@ namespace {
 
 /// Errors of an entry up to this share of the entries beside it are rounding of the caller's function.
 constexpr double rounding_share = 1e-14;
+/// A smooth feature takes fewer pieces than this; shorter ones are there for something sharper.
+constexpr double pieces_per_feature = 32.0;
 /// How far beside the range, relative to its length, values of the parameter may be by rounding.
 constexpr double at_the_ends = 1e-12;
 
@@ -50,6 +52,9 @@ void check(const FunctionFamilyOptions& options) {
   if (!(options.tolerance >= rounding_share && options.tolerance < 1.0))
     fail("tolerance: expected 1e-14 <= tolerance < 1, got " + exact_text(options.tolerance));
   if (options.max_calls < 2) fail("max_calls: expected at least 2, got " + std::to_string(options.max_calls));
+  if (!(options.resolution > 0.0 && options.resolution <= 1.0))
+    fail("resolution: expected a share of the range, above 0 and at most 1, got " +
+         exact_text(options.resolution));
   for (const double place : options.breaks) {
     if (!(place > options.from && place < options.to))
       fail("breaks: expected places between from and to, got " + exact_text(place));
@@ -155,6 +160,10 @@ class Layout {
 std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& layout,
                             const Unresolved& what, int calls) {
   const bool out_of_calls = calls >= options.max_calls;
+  if (out_of_calls && what.error == 0.0)
+    return "FunctionFamily: " + std::to_string(calls) + " calls are not enough to look for features of " +
+           short_text(options.resolution) +
+           " of the range: allow more calls (max_calls), or a larger resolution";
   return "FunctionFamily: " +
          (out_of_calls ? std::to_string(calls) + " calls are not enough for the tolerance "
                        : std::string("no pieces are short enough for the tolerance ")) +
@@ -194,6 +203,33 @@ std::vector<std::string> texts_of(const std::vector<std::string>& given, const c
   return texts;
 }
 
+/// The shortest piece of every run of pieces that are too short for a feature of the width `resolved`: at a
+/// kink, or where the function changes more quickly.
+std::vector<FamilyPiece> sharp_pieces(const std::vector<FamilyPiece>& pieces, double resolved) {
+  std::vector<FamilyPiece> sharp;
+  const auto length = [](const FamilyPiece& piece) { return piece.to - piece.from; };
+  bool in_run = false;
+  for (const FamilyPiece& piece : pieces) {
+    const bool is_short = length(piece) * pieces_per_feature < resolved;
+    if (is_short && !in_run) sharp.push_back(piece);
+    if (is_short && length(piece) < length(sharp.back())) sharp.back() = piece;
+    in_run = is_short;
+  }
+  return sharp;
+}
+
+/// The width of the features that were looked for, and the places where there are narrower ones, in words.
+std::string resolution_text(const FunctionFamilyOptions& options, const std::vector<FamilyPiece>& pieces) {
+  const double resolved = options.resolution * (options.to - options.from);
+  const std::string unit = options.unit.empty() ? "" : " " + options.unit;
+  std::string text = "features of the function down to " + short_text(resolved) + unit + " were looked for";
+  std::string places;
+  for (const FamilyPiece& piece : sharp_pieces(pieces, resolved))
+    places += (places.empty() ? "" : ", ") + exact_text(0.5 * (piece.from + piece.to));
+  return places.empty() ? text
+                        : text + "; sharper, perhaps kinks: at " + options.parameter + " = " + places + unit;
+}
+
 ModelDescription describe(const FunctionFamilyOptions& options, const std::vector<FamilyPiece>& pieces,
                           int calls) {
   const Eigen::Index n = pieces.front().K.front().rows();
@@ -217,6 +253,7 @@ ModelDescription describe(const FunctionFamilyOptions& options, const std::vecto
   parameter.value = options.from;
   parameter.unit = options.unit;
   description.parameters = Parameters({parameter});
+  description.data = {{"resolution", resolution_text(options, pieces)}};
   return description;
 }
 
@@ -230,7 +267,7 @@ Interpolated interpolate(const FunctionFamily::Function& function, const Functio
     if (!layout) layout.emplace(matrices, where);
     return layout->entries(matrices, where);
   };
-  PiecewiseOptions wanted{{options.from}, options.tolerance, options.max_calls};
+  PiecewiseOptions wanted{{options.from}, options.tolerance, options.max_calls, options.resolution};
   wanted.ends.insert(wanted.ends.end(), options.breaks.begin(), options.breaks.end());
   wanted.ends.push_back(options.to);
   std::sort(wanted.ends.begin(), wanted.ends.end());
@@ -242,7 +279,8 @@ Interpolated interpolate(const FunctionFamily::Function& function, const Functio
   std::vector<FamilyPiece> pieces;
   for (const ChebyshevPiece& piece : result.pieces) pieces.push_back(layout->piece(piece));
   ModelDescription description = describe(options, pieces, result.calls);
-  return {std::move(description), std::move(pieces), result.calls};
+  return {std::move(description), std::move(pieces), result.calls,
+          options.resolution * (options.to - options.from)};
 }
 
 }  // namespace
@@ -253,6 +291,7 @@ FunctionFamily::FunctionFamily(const Function& function, const FunctionFamilyOpt
 FunctionFamily::FunctionFamily(Interpolated interpolated)
     : Model(std::move(interpolated.description)),
       calls_(interpolated.calls),
+      resolved_(interpolated.resolved),
       pieces_(std::move(interpolated.pieces)) {}
 
 Vector FunctionFamily::initial_guess(const Vector&) const {
@@ -288,6 +327,19 @@ EvaluationFault FunctionFamily::extended_residual(const BasicPath<Extended>&,
   result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
   result.constraint = ExtendedMatrix::Zero(0, 1);
   return {};
+}
+
+std::vector<double> FunctionFamily::landings(int) const {
+  std::vector<double> places;
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+    if (pieces_[i].from - (places.empty() ? pieces_.front().from : places.back()) >= 0.5 * resolved_)
+      places.push_back(pieces_[i].from);
+  }
+  for (const FamilyPiece& piece : sharp_pieces(pieces_, resolved_)) {
+    places.push_back(piece.from);
+    places.push_back(piece.to);
+  }
+  return places;
 }
 
 CoefficientMatrices FunctionFamily::coefficient_matrices(const Vector&, int) const {

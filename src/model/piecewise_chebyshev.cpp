@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -74,12 +75,14 @@ class Interpolation {
   /// Adds the pieces of an interval, a half of `around`, which is not resolved; false if it was given up.
   bool resolve(double from, double to, const Unresolved& around) {
     ChebyshevPiece piece{from, to, {}};
-    const Outcome outcome = interpolate(piece);
+    Outcome outcome = interpolate(piece);
+    if (outcome == Outcome::accepted) outcome = look_between(piece);
     if (outcome == Outcome::accepted) {
       result_.pieces.push_back(std::move(piece));
       return true;
     }
-    if (outcome == Outcome::no_calls) return give_up(around);
+    if (outcome == Outcome::no_calls)
+      return give_up(error_ > 0.0 ? around : Unresolved{from, to, worst_, 0.0});
     const Unresolved whole{from, to, worst_, error_};
     const double middle = 0.5 * (from + to);
     const double range = options_.ends.back() - options_.ends.front();
@@ -107,6 +110,27 @@ class Interpolation {
       if (degree > least_degree && is_hopeless(piece.coefficients)) return Outcome::halve;
     }
     return Outcome::halve;
+  }
+
+  /// Compares an accepted piece with values at places between its points.
+  Outcome look_between(const ChebyshevPiece& piece) {
+    const double widest = options_.resolution * (options_.ends.back() - options_.ends.front());
+    std::vector<double> places;
+    const auto end = known_.upper_bound(piece.to);
+    for (auto left = known_.lower_bound(piece.from), right = std::next(left); right != end; ++left, ++right) {
+      const double gap = right->first - left->first;
+      const int parts = static_cast<int>(std::ceil(gap / widest));
+      for (int i = 1; i < parts; ++i) places.push_back(left->first + gap * i / parts);
+    }
+    error_ = 0.0;
+    for (const double p : places) {
+      const Vector* value = at(p);
+      if (value == nullptr) return Outcome::no_calls;
+      const double x = (2.0 * p - piece.from - piece.to) / (piece.to - piece.from);
+      error_ = relative(*value - value_at(piece.coefficients, x), &worst_);
+      if (error_ > options_.tolerance) return Outcome::halve;
+    }
+    return Outcome::accepted;
   }
 
   /// Values at all points of a degree; those of half the degree are known. False if it takes too many calls.

@@ -3,7 +3,8 @@
 // On a piece the values are taken at Chebyshev points of the second kind, x_j = cos(pi j / N), for N = 4, 8,
 // 16, 32: the points of one N are among those of the next. The polynomial of degree N/2 is compared with the
 // values at the new points; for smooth functions the error of degree N is about the square of that. If 33
-// points are not enough, or will not be, the piece is halved.
+// points are not enough, or will not be, the piece is halved. A polynomial that is accepted is compared with
+// further values where points are farther apart than the resolution.
 #pragma once
 
 #include <functional>
@@ -23,6 +24,7 @@ struct PiecewiseOptions {
   std::vector<double> ends;  ///< ends of the first pieces, ascending, at least two
   double tolerance = 1e-11;  ///< relative to the largest magnitude of each function
   int max_calls = 1000;
+  double resolution = 1.0;  ///< largest distance of two evaluations, as a share of the range; > 0
 };
 
 /// What could not be resolved: a piece, the function with the largest error, and this error in units of the

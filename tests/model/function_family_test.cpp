@@ -27,11 +27,13 @@ struct Recorded {
   }
 };
 
+/// Without a search for narrow features.
 FunctionFamilyOptions range(double from, double to, double tolerance = 1e-11) {
   FunctionFamilyOptions options;
   options.from = from;
   options.to = to;
   options.tolerance = tolerance;
+  options.resolution = 1.0;
   return options;
 }
 
@@ -278,6 +280,52 @@ TEST(FunctionFamily, AKinkIsResolvedByShortPiecesIfCallsAllow) {
     const double p = 0.3 + std::copysign(0.3 * std::pow(0.98, i), i % 2 - 0.5);
     ASSERT_NEAR(at(family, p).K[0](0, 0), 5.0 + std::abs(p - 0.3), 5.7e-8) << p;
   }
+}
+
+/// The largest error of a trace of a bump of 25 % of the stiffness, 4, beside its centre.
+double error_at_bump(double centre, double width, double resolution) {
+  const auto stiffness = [&](double p) { return 4.0 + std::exp(-std::pow((p - centre) / width, 2)); };
+  FunctionFamilyOptions options = range(0.0, 1.0);
+  options.resolution = resolution;
+  const FunctionFamily family([&](double p) { return with_K(Matrix::Constant(1, 1, stiffness(p))); },
+                              options);
+  TraceOptions along;
+  along.parameter = "p";
+  along.from = 0.0;
+  along.to = 1.0;
+  PathRecorder recorder;
+  TraceObserver observer;
+  observer.point = [&](const TracePoint& point) { return recorder.append(point), true; };
+  EXPECT_EQ(trace(family, along, observer).status, TraceStatus::completed);
+  const RecordedPath path = recorder.path();
+  double worst = 0.0;
+  for (double p = centre - 2.0 * width; p <= centre + 2.0 * width; p += 0.1 * width) {
+    const double found = path.eigenvalues_at(path.positions(p).at(0)).front().imag();
+    worst = std::max(worst, std::abs(found - std::sqrt(stiffness(p))));
+  }
+  return worst;
+}
+
+/// Nine calls see few of them.
+TEST(FunctionFamily, BumpsAsWideAsTheResolutionAreFound) {
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> place(0.1, 0.9);
+  int missed = 0;
+  for (int i = 0; i < 16; ++i) {
+    const double centre = place(engine), width = i % 2 == 0 ? 0.01 : 0.002;
+    EXPECT_LT(error_at_bump(centre, width, width), 1e-5) << width << " " << centre;
+    missed += error_at_bump(centre, width, 1.0) > 1e-2 ? 1 : 0;
+  }
+  EXPECT_GT(missed, 8);
+}
+
+/// A kink that short pieces resolve has its place in the description of the model.
+TEST(FunctionFamily, AKinkIsNamed) {
+  const FunctionFamily family([](double p) { return with_K(square(5.0 + std::abs(p - 0.3), 1, 1, 2.0)); },
+                              range(0.0, 1.0, 1e-8));
+  const std::string text = family.description().data.front().second;
+  EXPECT_NE(text.find("kinks: at p = 0.3"), std::string::npos) << text;
+  ASSERT_FALSE(family.landings(0).empty());
 }
 
 struct OwnError : std::runtime_error {

@@ -28,9 +28,11 @@ class Family:
         Family(M=M, K={0: K0, "bearing": Kb}, factors={"bearing": "k"}, parameters={"k": 1e6, "omega": 0}, parameter="omega")
         Family(lambda omega: dict(M=M, C=C0 + omega * G, K=K))    # called only where needed
 
-    A function is given as the first argument: p -> dict of matrices. It is called a few dozen times at Chebyshev points of
-    the range, as often as `function_tolerance` (of every entry, relative; by default a thousandth of the tolerance of the
-    trace) needs, `max_calls` times at most; `breaks` are places where its matrices have a jump or a kink.
+    A function is given as the first argument: p -> dict of matrices. It is called at Chebyshev points of the range, as often
+    as `function_tolerance` (of every entry, relative; by default a thousandth of the tolerance of the trace) needs, and
+    between them so that no two calls are farther apart than `resolution`, a share of the range: narrower bumps may be
+    missed, and what is certified is so down to this width. `max_calls` times at most; `breaks` are places where its matrices
+    have a jump or a kink.
 
     `parameter` is the name of the parameter, by default the one that is traced; `unit` its unit, for labels; `names` the
     names of the coordinates, n of them.
@@ -50,7 +52,7 @@ class Family:
                  parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
                  factors: Optional[Mapping[str, Any]] = None, parameters: Optional[Mapping[str, Any]] = None,
                  title: str = "", function_tolerance: Optional[float] = None, max_calls: int = 1000,
-                 breaks: Sequence[float] = ()):
+                 resolution: float = 0.01, breaks: Sequence[float] = ()):
         given = _given(dict(M=M, C=C, K=K, E=E, A=A))
         if (function is None) == (not given):
             raise TypeError("expected matrices M, C, K or E, A, or a function that returns them")
@@ -63,7 +65,8 @@ class Family:
         self.names = None if names is None else [str(name) for name in names]
         _require_names(self.names, _labelled(self.matrices))
         self.factors, self.parameters = dict(factors or {}), dict(parameters or {})
-        self.function_tolerance, self.max_calls, self.breaks = function_tolerance, max_calls, list(breaks)
+        self.function_tolerance, self.max_calls = function_tolerance, max_calls
+        self.resolution, self.breaks = resolution, list(breaks)
 
     def __repr__(self) -> str:
         if self.function is not None:

@@ -59,7 +59,7 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
         scene = attached.scene(source.scene(traced, ranges.get(traced)), type(source).__name__)
         if isinstance(source, Family) and source.function is not None:
             function = engine().FunctionSource(
-                partial(source.at, parameter=traced), _function_tolerance(source, tolerance), source.max_calls,
+                partial(source.at, parameter=traced), _function_tolerance(source, tolerance), source.max_calls, source.resolution,
                 source.breaks, source.names or [])
     else:
         scene, attached = _read(source)

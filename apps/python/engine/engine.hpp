@@ -35,6 +35,7 @@ struct FunctionSource {
   pybind11::function call;  ///< p -> dict of M, C, K or E, A, which are Doubles
   double tolerance = 0.0;   ///< of the entries
   int max_calls = 0;
+  double resolution = 0.0;  ///< share of the range
   std::vector<double> breaks;
   std::vector<std::string> state_names;
 };

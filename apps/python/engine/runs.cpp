@@ -49,6 +49,7 @@ FunctionFamilyOptions options_of(const FunctionSource& source, const Parameter& 
   options.to = std::max(trace.from, trace.to);
   options.tolerance = source.tolerance;
   options.max_calls = source.max_calls;
+  options.resolution = source.resolution;
   options.breaks = source.breaks;
   options.state_names = source.state_names;
   return options;
@@ -161,13 +162,13 @@ void add_runs(py::module_& module) {
       .def_readonly("interrupted", &Outcome::interrupted)
       .def_readonly("remarks", &Outcome::remarks);
   py::class_<FunctionSource>(module, "FunctionSource")
-      .def(py::init([](py::function call, double tolerance, int max_calls, std::vector<double> breaks,
-                       std::vector<std::string> state_names) {
-             return FunctionSource{std::move(call), tolerance, max_calls, std::move(breaks),
-                                   std::move(state_names)};
+      .def(py::init([](py::function call, double tolerance, int max_calls, double resolution,
+                       std::vector<double> breaks, std::vector<std::string> state_names) {
+             return FunctionSource{std::move(call), tolerance,         max_calls,
+                                   resolution,      std::move(breaks), std::move(state_names)};
            }),
-           py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("breaks"),
-           py::arg("state_names"));
+           py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("resolution"),
+           py::arg("breaks"), py::arg("state_names"));
   module.def("trace", &run_trace, py::arg("scene"), py::arg("options"), py::arg("function"),
              py::arg("threads"), py::arg("progress"));
   module.def(

@@ -4,7 +4,8 @@
 // The function may be expensive. It is called only when the model is made: the matrices are interpolated by
 // polynomials in pieces, through Chebyshev points (Trefethen, Approximation Theory and Approximation
 // Practice, SIAM 2013, Sects. 2, 8), and the trace works with these. Where the matrices are smooth, each
-// further call gains digits: about 20 to 80 calls are enough for most ranges.
+// further call gains digits: about 20 to 80 calls are enough for most ranges. The
+// others, a hundred by default, look for what is narrower than those would show.
 #pragma once
 
 #include <functional>
@@ -34,6 +35,9 @@ struct FunctionFamilyOptions {
   /// less.
   double tolerance = 1e-11;
   int max_calls = 1000;  ///< at least 2
+  /// Width, as a share of the range, of the features that are looked for between the points that a smooth
+  /// function needs: no two calls are farther apart. Narrower ones may be missed. 0 < resolution <= 1
+  double resolution = 0.01;
   /// Places inside the range where the matrices or their derivatives jump, if they are known: pieces begin
   /// there. A kink at any other place costs some 40 calls per halving of the pieces until `max_calls`.
   std::vector<double> breaks = {};
@@ -86,6 +90,9 @@ class FunctionFamily final : public Model {
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
   CoefficientMatrices coefficient_matrices(const Vector&, int) const override;
+  /// Places where pieces meet, no closer than features that were looked for; and sharper ones, from both
+  /// sides.
+  std::vector<double> landings(int traced_parameter) const override;
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
                                     BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
@@ -96,6 +103,7 @@ class FunctionFamily final : public Model {
     ModelDescription description;
     std::vector<FamilyPiece> pieces;
     int calls = 0;
+    double resolved = 0.0;
   };
   explicit FunctionFamily(Interpolated interpolated);
 
@@ -105,6 +113,7 @@ class FunctionFamily final : public Model {
   const FamilyPiece* piece_at(double p, double slope) const;
 
   int calls_ = 0;
+  double resolved_ = 0.0;  ///< width of the features that were looked for
   std::vector<FamilyPiece> pieces_;
 };
 
