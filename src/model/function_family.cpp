@@ -37,9 +37,9 @@ std::string at(const std::string& parameter, double p) {
   return parameter + " = " + exact_text(p);
 }
 
-std::string short_text(double number) {
+std::string short_text(double number, int digits = 3) {
   std::ostringstream text;
-  text.precision(3);
+  text.precision(digits);
   text << number;
   return text.str();
 }
@@ -225,7 +225,7 @@ std::string resolution_text(const FunctionFamilyOptions& options, const std::vec
   std::string text = "features of the function down to " + short_text(resolved) + unit + " were looked for";
   std::string places;
   for (const FamilyPiece& piece : sharp_pieces(pieces, resolved))
-    places += (places.empty() ? "" : ", ") + exact_text(0.5 * (piece.from + piece.to));
+    places += (places.empty() ? "" : ", ") + short_text(0.5 * (piece.from + piece.to), 6);
   return places.empty() ? text
                         : text + "; sharper, perhaps kinks: at " + options.parameter + " = " + places + unit;
 }

@@ -9,14 +9,24 @@
 namespace eigentrail {
 namespace {
 
+/// Whether a point is a branch point, at which a trace may take another path: each path knows it only to half
+/// of the digits.
+bool is_branch_point(const LociFile& loci, std::size_t node) {
+  return std::any_of(loci.events.begin(), loci.events.end(), [&](const LociEvent& event) {
+    return event.kind == "branch_point" && event.node == static_cast<int>(node);
+  });
+}
+
 void check_ends(const LociFile& loci, std::size_t step) {
   constexpr double rounding = 1e-12;
+  constexpr double half_of_digits = 1e-8;
   const double size = loci.highest() - loci.lowest() + std::abs(loci.highest());
   const PathStep& here = loci.steps[step];
   for (const std::size_t end : {0, 1}) {
     const double expected = here.parameter(static_cast<Eigen::Index>(end), 0);
     const double p = loci.p[step + end];
-    if (std::abs(expected - p) <= rounding * size) continue;
+    const double allowed = is_branch_point(loci, step + end) ? half_of_digits : rounding;
+    if (std::abs(expected - p) <= allowed * size) continue;
     throw InputError(loci.path + ": point " + std::to_string(step + end + 1) + " has " + loci.parameter +
                      " = " + exact_text(p) + ", the step " + (end == 0 ? "behind" : "before") +
                      " it step_parameter = " + exact_text(expected));

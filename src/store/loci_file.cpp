@@ -328,8 +328,8 @@ LociFile loci_in(const Hdf5File& file, const std::string& path) {
   }
   read_points(file, loci);
   read_steps(file, loci);
-  check_points_and_steps(loci);
   read_events(file, loci);
+  check_points_and_steps(loci);
   loci.ranges = read_stable_ranges(file, loci.modes.size());
   loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
   loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());

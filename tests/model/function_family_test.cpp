@@ -300,7 +300,7 @@ double error_at_bump(double centre, double width, double resolution) {
   const RecordedPath path = recorder.path();
   double worst = 0.0;
   for (double p = centre - 2.0 * width; p <= centre + 2.0 * width; p += 0.1 * width) {
-    const double found = path.eigenvalues_at(path.positions(p).at(0)).front().imag();
+    const double found = path.eigenvalues_at(path.positions(p).at(0))[0].imag();
     worst = std::max(worst, std::abs(found - std::sqrt(stiffness(p))));
   }
   return worst;
