@@ -148,6 +148,7 @@ MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOpti
 
 MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
   check_top_level(scene);
+  require_first_range(scene, overrides);
   MapSetup setup{{std::move(scene), {}, nullptr}, options};
   TraceSetup& trace = setup.trace;
   std::set<int> used;
