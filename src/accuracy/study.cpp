@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/archive.hpp"
+#include "eigentrail/core/errors.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -66,38 +69,94 @@ std::vector<std::string> find_faults(const StudyOptions& options) {
   return faults;
 }
 
-Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
-                     const std::function<void(int, int)>& progress) {
-  const OptionsGuard guard(setup.options);
-  const TraceOptions own = setup.options;
-  const std::size_t all_runs = options.tolerances.size() * options.orders.size() + 2 +
-                               2 * options.grids.size() * std::size(grid_methods);
-  Study study{reference_set(setup, sample_parameters(own, options.samples)), {}};
-  const auto done = [&](MeasuredRun run) {
-    study.runs.push_back(std::move(run));
-    progress(static_cast<int>(study.runs.size()), static_cast<int>(all_runs));
+// How results are written to an archive and read from it (core/archive.hpp).
+
+template <SameAs<ReferenceSample> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [p, passages] = self;
+  visit(p, passages);
+}
+
+template <SameAs<ReferenceSet> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [samples, unsolved, correction, s_ref] = self;
+  visit(samples, unsolved, correction, s_ref);
+}
+
+template <SameAs<MeasuredRun> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [method, interpolation, tolerance, order, completed, message, points, error, worst_parameter,
+         measured, seconds, factorizations, spectra, evaluations, bytes] = self;
+  visit(method, interpolation, tolerance, order, completed, message, points, error, worst_parameter, measured,
+        seconds, factorizations, spectra, evaluations, bytes);
+}
+
+namespace {
+
+/// Runs that are measured together: one trace, or a grid with both interpolations.
+using Measurement = std::function<std::vector<MeasuredRun>(const ReferenceSet&)>;
+
+std::vector<Measurement> measurements(TraceSetup& setup, const StudyOptions& options) {
+  std::vector<Measurement> all;
+  const auto trace_with = [&](const TraceOptions& changed) {
+    all.push_back([&, changed](const ReferenceSet& reference) {
+      const OptionsGuard guard(setup.options);
+      setup.options = changed;
+      return std::vector{measure_trace(setup, reference, options.repeat)};
+    });
   };
+  TraceOptions changed = setup.options;
   for (const int order : options.orders) {
     for (const double tolerance : options.tolerances) {
-      setup.options.order = order;
-      setup.options.tolerance = tolerance;
-      done(measure_trace(setup, study.reference, options.repeat));
+      changed.order = order;
+      changed.tolerance = tolerance;
+      trace_with(changed);
     }
   }
-  setup.options = own;
+  changed = setup.options;
   for (const bool certify : {true, false}) {
-    setup.options.certify = certify;
-    done(measure_trace(setup, study.reference, options.repeat));
+    changed.certify = certify;
+    trace_with(changed);
   }
-  setup.options = own;
   for (const Method method : grid_methods) {
     for (const int points : options.grids) {
-      const GridRuns runs = measure_grid(setup, study.reference, method, points, options.repeat);
-      done(runs.linear);
-      done(runs.spline);
+      all.push_back([&, method, points](const ReferenceSet& reference) {
+        GridRuns runs = measure_grid(setup, reference, method, points, options.repeat);
+        return std::vector{std::move(runs.linear), std::move(runs.spline)};
+      });
     }
   }
+  return all;
+}
+
+}  // namespace
+
+Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
+                     const std::function<void(int, int)>& progress) try {
+  Study study;
+  const auto reference = [&](std::size_t) {
+    return packed(reference_set(setup, sample_parameters(setup.options, options.samples)));
+  };
+  unpack(workers.compute({"reference", {0}, reference}).front(), study.reference);
+  const std::vector<Measurement> all = measurements(setup, options);
+  const auto measure = [&](std::size_t i) { return packed(all[i](study.reference)); };
+  const auto report = [&](std::size_t done, std::size_t, const std::string&) {
+    progress(static_cast<int>(done), static_cast<int>(all.size()));
+  };
+  for (const std::string& bytes : workers.compute({"measurement", numbers_to(all.size()), measure}, report)) {
+    std::vector<MeasuredRun> runs;
+    unpack(bytes, runs);
+    std::move(runs.begin(), runs.end(), std::back_inserter(study.runs));
+  }
   return study;
+} catch (const ArchiveError& error) {
+  throw InputError(std::string("a measurement is damaged: ") + error.what());
+}
+
+Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
+                     const std::function<void(int, int)>& progress) {
+  Threads one(1);
+  return accuracy_study(setup, options, one, progress);
 }
 
 }  // namespace eigentrail

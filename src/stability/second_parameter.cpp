@@ -31,7 +31,8 @@ void require_first_range(const Scene& scene, const OptionTexts& overrides) {
   for (const std::string key : {"from", "to"}) {
     if (given.contains(key)) continue;
     const std::string option = "--first-" + key;
-    if (parameter != given.end() && traced_parameter(scene) != parameter->second)
+    if (parameter != given.end() && scene.parameters.index(parameter->second) &&
+        traced_parameter(scene) != parameter->second)
       throw InputError(option + ": is missing; the range in the scene is not that of '" + parameter->second +
                        "'");
     if (trace.find(key) == nullptr)

@@ -99,7 +99,7 @@ std::optional<std::string> SharedRun::setting(const std::string& label) const {
   return found == settings.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene) {
+Settings settings_of(const Scene& scene) {
   std::string files;
   add_files(scene.root, std::filesystem::path(scene.path).parent_path(), files);
   return {{"version", version()}, {"scene", scene.text}, {"files of the scene", files}};

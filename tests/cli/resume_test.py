@@ -285,7 +285,7 @@ class Interrupted(ProgramTest):
                               ("holds no state", whole[:-1]), ("is damaged", whole[:-4] + b"\xff" * 4)):
             path.write_bytes(damaged)
             self.assert_refused(self.run_program("trace", "scene.toml", "-o", "out.h5", "--resume"),
-                                ["out.h5: cannot be resumed: ", what, "trace anew with --force"])
+                                ["out.h5: cannot be resumed: ", what, "begin anew with --force"])
             self.assertEqual(path.read_bytes(), damaged)
 
     def test_force_and_resume_together_are_refused(self):
