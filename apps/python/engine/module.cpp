@@ -39,7 +39,7 @@ void raise_as(const char* name) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const CppError& found) {
-      PyErr_SetString(raised, in_words_of_python(found.what()).c_str());
+      PyErr_SetObject(raised, eigentrail::python::as_text(in_words_of_python(found.what())).ptr());
     }
   });
 }
