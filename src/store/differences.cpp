@@ -1,10 +1,10 @@
 #include "store/differences.hpp"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <set>
 #include <sstream>
 
 #include "eigentrail/core/errors.hpp"
@@ -32,33 +32,25 @@ std::string first_difference(const std::string& before, const std::string& now) 
   }
 }
 
-void require_same_run(const std::string& path, const Settings& before, const Settings& now) {
-  const std::map<std::string, std::string> old(before.begin(), before.end()), given(now.begin(), now.end());
-  const auto of = [](const auto& settings, const std::string& label) {
-    const auto found = settings.find(label);
-    return found == settings.end() ? std::string() : found->second;
-  };
-  const auto changed = [&](const std::string& label) { return of(old, label) != of(given, label); };
-  const std::string refused = path + ": cannot be resumed: ", anew = "begin anew with --force",
-                    restore = "; restore it, or " + anew;
-  if (changed("version"))
-    throw InputError(refused + "it was written by eigentrail " + printable(of(old, "version")) +
-                     ", this is " + of(given, "version") + "; " + anew);
-  if (changed("scene"))
-    throw InputError(refused + "the scene has changed since: " +
-                     first_difference(of(old, "scene"), of(given, "scene")) + restore);
-  if (changed("files of the scene"))
-    throw InputError(refused + "the files that the scene names have changed since" + restore);
-  std::set<std::string> labels;
-  for (const auto& [label, text] : before) labels.insert(label);
-  for (const auto& [label, text] : now) labels.insert(label);
-  std::string options;
-  for (const std::string& label : labels) {
-    if (changed(label))
-      options += (options.empty() ? "" : ", ") + label + " was " + printable(of(old, label)) + " and is " +
-                 printable(of(given, label));
+std::string changes(const Settings& before, const Settings& now) {
+  std::map<std::string, std::array<std::string, 2>> texts;
+  for (const auto& [label, text] : before) texts[label][0] = text;
+  for (const auto& [label, text] : now) texts[label][1] = text;
+  std::string found;
+  for (const auto& [label, both] : texts) {
+    const auto& [was, is] = both;
+    if (was == is) continue;
+    const bool lines = (was + is).find('\n') != std::string::npos;
+    found += (found.empty() ? "" : "; ") + label + ": " +
+             (lines ? first_difference(was, is) : "was " + in_quotes(was) + " and is " + in_quotes(is));
   }
-  if (!options.empty()) throw InputError(refused + "other options: " + options + restore);
+  return found;
+}
+
+void require_same_run(const std::string& path, const Settings& before, const Settings& now) {
+  const std::string found = changes(before, now);
+  if (!found.empty())
+    throw InputError(path + ": cannot be resumed: " + found + "; restore it, or begin anew with --force");
 }
 
 std::string bytes_of_file(const std::string& path) {

@@ -11,8 +11,12 @@ namespace eigentrail {
 /// counts as empty.
 std::string first_difference(const std::string& before, const std::string& now);
 
-/// Throws InputError, which says that `path` cannot be resumed, unless an interrupted run had the settings
-/// that this one has: "version", "scene", "files of the scene" and options.
+/// What has changed from one run's settings to another's, in words: "scene: line 3 was 'a' and is 'b'; to:
+/// was '5' and is '6'".
+std::string changes(const Settings& before, const Settings& now);
+
+/// Throws InputError with the changes, unless there are none: the file of an interrupted run cannot be
+/// resumed.
 void require_same_run(const std::string& path, const Settings& before, const Settings& now);
 
 /// The bytes of a file. Throws InputError if it cannot be read.

@@ -55,17 +55,15 @@ UnfinishedRun::~UnfinishedRun() = default;
 void UnfinishedRun::read() try {
   const std::string content = bytes_of_file(name_);
   std::string_view left = content;
+  if (format.starts_with(left)) return;  // killed before it was more than begun
   if (!left.starts_with(format)) throw InputError(name_ + ": is no file of an interrupted run; rename it");
   left.remove_prefix(format.size());
   const std::string_view first = take_record(left);
   if (first.empty()) return;
-  std::string command, kernel;
+  std::string kernel;
   Settings settings;
-  unpack(first, command, settings, kernel);
-  settings.emplace_back("command", command);
-  Settings now = run_.settings;
-  now.emplace_back("command", run_.command);
-  require_same_run(output_, settings, now);
+  unpack(first, settings, kernel);
+  require_same_run(output_, settings, run_.all_settings());
   if (kernel != blas_kernel()) other_kernel_ = kernel;
   for (std::string_view bytes = take_record(left); !bytes.empty(); bytes = take_record(left)) {
     std::pair<std::string, std::uint64_t> key;
@@ -93,7 +91,7 @@ void UnfinishedRun::open() {
   file_ = std::make_unique<LockedFile>(name_, output_);
   if (ftruncate(file_->descriptor(), end_) != 0 || lseek(file_->descriptor(), 0, SEEK_END) < 0)
     throw std::system_error(errno, std::generic_category(), name_);
-  if (!goes_on_) write(std::string(format) + record_of(packed(run_.command, run_.settings, blas_kernel())));
+  if (!goes_on_) write(std::string(format) + record_of(packed(run_.all_settings(), blas_kernel())));
 }
 
 void UnfinishedRun::write(const std::string& record) {

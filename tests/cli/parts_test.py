@@ -171,7 +171,7 @@ BAD_MERGES = [
     ("another option", ["a1", "e2", "a3"],
      ["e2: belongs to another run than a1: option tolerance: was '' and is '1e-8'"]),
     ("another grid", ["a1", "f2", "a3"], ["f2: belongs to another run than a1: lines: was '7' and is '6'"]),
-    ("another command", ["a1", "g2", "a3"], ["g2: belongs to another run", "eigentrail map", "eigentrail boundary"]),
+    ("another command", ["a1", "g2", "a3"], ["g2: belongs to another run", "command: was 'map' and is 'boundary'"]),
     ("a map", ["a1", "whole.h5", "a3"], ["whole.h5: is no part of a run"]),
     ("a scene", ["a1", "scene.toml", "a3"], ["scene.toml: is no part of a run"]),
     ("no such file", ["a1", "none", "a3"], ["none: no such file"]),

@@ -32,6 +32,9 @@ struct SharedRun {
   Settings settings;
   std::size_t n_pieces = 0;
 
+  /// The settings and the command.
+  Settings all_settings() const;
+
   /// The text of a setting; empty if there is none of this label.
   std::optional<std::string> setting(const std::string& label) const;
 };
