@@ -91,62 +91,50 @@ static void fields(Self& self, Visit& visit) {
         seconds, factorizations, spectra, evaluations, bytes);
 }
 
-namespace {
-
-/// Runs that are measured together: one trace, or a grid with both interpolations.
-using Measurement = std::function<std::vector<MeasuredRun>(const ReferenceSet&)>;
-
-std::vector<Measurement> measurements(TraceSetup& setup, const StudyOptions& options) {
-  std::vector<Measurement> all;
-  const auto trace_with = [&](const TraceOptions& changed) {
-    all.push_back([&, changed](const ReferenceSet& reference) {
-      const OptionsGuard guard(setup.options);
-      setup.options = changed;
-      return std::vector{measure_trace(setup, reference, options.repeat)};
-    });
-  };
-  TraceOptions changed = setup.options;
-  for (const int order : options.orders) {
-    for (const double tolerance : options.tolerances) {
-      changed.order = order;
-      changed.tolerance = tolerance;
-      trace_with(changed);
-    }
-  }
-  changed = setup.options;
-  for (const bool certify : {true, false}) {
-    changed.certify = certify;
-    trace_with(changed);
-  }
-  for (const Method method : grid_methods) {
-    for (const int points : options.grids) {
-      all.push_back([&, method, points](const ReferenceSet& reference) {
-        GridRuns runs = measure_grid(setup, reference, method, points, options.repeat);
-        return std::vector{std::move(runs.linear), std::move(runs.spline)};
-      });
-    }
-  }
-  return all;
-}
-
-}  // namespace
-
 Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
                      const std::function<void(int, int)>& progress) try {
+  const OptionsGuard guard(setup.options);
+  const TraceOptions own = setup.options;
+  const std::size_t all_runs = options.tolerances.size() * options.orders.size() + 2 +
+                               2 * options.grids.size() * std::size(grid_methods);
   Study study;
   const auto reference = [&](std::size_t) {
-    return packed(reference_set(setup, sample_parameters(setup.options, options.samples)));
+    return packed(reference_set(setup, sample_parameters(own, options.samples)));
   };
   unpack(workers.compute({"reference", {0}, reference}).front(), study.reference);
-  const std::vector<Measurement> all = measurements(setup, options);
-  const auto measure = [&](std::size_t i) { return packed(all[i](study.reference)); };
-  const auto report = [&](std::size_t done, std::size_t, const std::string&) {
-    progress(static_cast<int>(done), static_cast<int>(all.size()));
-  };
-  for (const std::string& bytes : workers.compute({"measurement", numbers_to(all.size()), measure}, report)) {
+  std::size_t number = 0;
+  const auto add = [&](const std::function<std::vector<MeasuredRun>()>& measure) {
+    const auto piece = [&](std::size_t) { return packed(measure()); };
     std::vector<MeasuredRun> runs;
-    unpack(bytes, runs);
-    std::move(runs.begin(), runs.end(), std::back_inserter(study.runs));
+    unpack(workers.compute({"measurement", {number++}, piece}).front(), runs);
+    for (MeasuredRun& run : runs) {
+      study.runs.push_back(std::move(run));
+      progress(static_cast<int>(study.runs.size()), static_cast<int>(all_runs));
+    }
+  };
+  const auto add_trace = [&] {
+    add([&] { return std::vector{measure_trace(setup, study.reference, options.repeat)}; });
+  };
+  for (const int order : options.orders) {
+    for (const double tolerance : options.tolerances) {
+      setup.options.order = order;
+      setup.options.tolerance = tolerance;
+      add_trace();
+    }
+  }
+  setup.options = own;
+  for (const bool certify : {true, false}) {
+    setup.options.certify = certify;
+    add_trace();
+  }
+  setup.options = own;
+  for (const Method method : grid_methods) {
+    for (const int points : options.grids) {
+      add([&] {
+        const GridRuns runs = measure_grid(setup, study.reference, method, points, options.repeat);
+        return std::vector{runs.linear, runs.spline};
+      });
+    }
   }
   return study;
 } catch (const ArchiveError& error) {

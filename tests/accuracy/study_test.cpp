@@ -176,7 +176,7 @@ TEST(Study, HasARunForEverySetting) {
   int last = 0;
   const Study study = accuracy_study(setting, options, [&](int done, int all) {
     EXPECT_EQ(done, ++last);
-    EXPECT_EQ(all, 10);  // both interpolations of a grid at once
+    EXPECT_EQ(all, 14);
   });
   EXPECT_EQ(study.runs.size(), 14U);
   EXPECT_EQ(setting.options.tolerance, 1e-8);  // as the scene says, again
