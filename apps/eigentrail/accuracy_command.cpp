@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "accuracy_report.hpp"
 #include "check_output.hpp"
@@ -11,6 +10,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/store/accuracy_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "parts.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
 
@@ -18,9 +18,8 @@ namespace eigentrail::app {
 namespace {
 
 struct AccuracyArguments : SceneArguments {
-  std::optional<std::string> output;  ///< absent: no file is written
-  bool force = false;
-  bool quiet = false;
+  bool writes = false;
+  OutputChoice output;
   std::map<std::string, std::string> lists;  ///< per flag: the list of numbers as text
   StudyOptions options;
   std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
@@ -55,7 +54,18 @@ void check_options(const StudyOptions& options) {
   if (!message.empty()) throw InputError(message);
 }
 
-int run_accuracy(AccuracyArguments& arguments) {
+/// What the study depends on.
+SharedRun shared_run(const TraceSetup& setup, const AccuracyArguments& arguments) {
+  SharedRun run{"accuracy", setup.scene.path, settings_of(setup.scene)};
+  run.settings.insert(run.settings.end(), arguments.lists.begin(), arguments.lists.end());
+  run.settings.emplace_back("--samples", std::to_string(arguments.options.samples));
+  run.settings.emplace_back("--repeat", std::to_string(arguments.options.repeat));
+  for (const auto& [key, text] : arguments.trace_options) run.settings.emplace_back("--" + key, text);
+  return run;
+}
+
+int run_accuracy(AccuracyArguments& arguments, Team& team) {
+  OutputChoice& output = arguments.output;
   StudyOptions& options = arguments.options;
   read_list(arguments, "--tolerances", options.tolerances);
   read_list(arguments, "--orders", options.orders);
@@ -65,26 +75,32 @@ int run_accuracy(AccuracyArguments& arguments) {
       prepare_trace(given_scene(arguments), {arguments.trace_options.begin(), arguments.trace_options.end()});
   warn_of_unused(setup.scene, *setup.model);
   project_if_large(setup.model, setup.options);
-  if (arguments.output) {
-    check_output(*arguments.output, arguments.force, {accuracy_format, "work-precision study"});
-    check_can_create(*arguments.output);
+  std::unique_ptr<UnfinishedRun> unfinished;
+  std::unique_ptr<Workers> workers = team.workers(1);
+  if (arguments.writes) {
+    unfinished = unfinished_run(output, shared_run(setup, arguments), {}, team);
+    check_output(output.path, output.force, {accuracy_format, "work-precision study"});
+    check_can_create(output.path);
+    workers = std::make_unique<SavingWorkers>(std::move(workers), *unfinished);
   }
-  ProgressBar progress(arguments.quiet);
-  const Study study = accuracy_study(setup, options, [&](int done, int all) {
+  ProgressBar progress(output.quiet);
+  const Study study = accuracy_study(setup, options, *workers, [&](int done, int all) {
     progress.update(static_cast<double>(done) / all, done, "runs");
   });
   progress.finish();
-  if (study.reference.samples.empty()) {
-    std::fprintf(stderr, "eigentrail: %s: no reference could be computed anywhere on the range\n",
-                 setup.scene.path.c_str());
-    return numbers_failed;
-  }
-  if (!arguments.quiet) print_study(setup, study);
-  if (arguments.output) {
-    write_durably(*arguments.output, {study_file(setup, options, study)}, existing(arguments.force));
-    if (!arguments.quiet) std::printf("wrote %s\n", arguments.output->c_str());
-  }
-  return done;
+  const auto finish = [&]() -> int {
+    if (study.reference.samples.empty()) {
+      std::fprintf(stderr, "eigentrail: %s: no reference could be computed anywhere on the range\n",
+                   setup.scene.path.c_str());
+      return numbers_failed;
+    }
+    if (!output.quiet) print_study(setup, study);
+    if (!arguments.writes) return done;
+    write_durably(output.path, {study_file(setup, options, study)}, existing(output.force));
+    if (!output.quiet) std::printf("wrote %s\n", output.path.c_str());
+    return done;
+  };
+  return unfinished ? end_run(*unfinished, finish) : finish();
 }
 
 }  // namespace
@@ -95,7 +111,8 @@ void add_accuracy(CLI::App& program, int& exit_code) {
       "accuracy", "work-precision study of a scene: the error really achieved, and what it costs");
   StudyOptions& options = arguments->options;
   add_scene(*command, *arguments);
-  command->add_option("-o,--output", arguments->output, "file to write (HDF5)");
+  auto* output =
+      command->add_option("-o,--output", arguments->output.path, "file to write (HDF5); default: none");
   for (const auto& [flag, help] :
        {std::array{"--tolerances", "tolerances to trace with: A,B,... (1e-2,1e-3,...,1e-12)"},
         std::array{"--orders", "orders of the power series: A,B,... (1,2,3,4)"},
@@ -119,11 +136,13 @@ void add_accuracy(CLI::App& program, int& exit_code) {
         },
         std::string(help) + " (overrides the scene)");
   }
-  command->add_flag("--force", arguments->force, "replace an existing output");
-  command->add_flag("-q,--quiet", arguments->quiet, "no progress bar, no table");
+  add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n  eigentrail accuracy data/scenes/rotating_mass.toml --tolerances 1e-4,1e-8 -o study.h5");
-  command->callback([arguments, &exit_code] { exit_code = run_accuracy(*arguments); });
+  command->callback([arguments, output, &exit_code] {
+    arguments->writes = output->count() > 0;
+    exit_code = alone([&](Team& team) { return run_accuracy(*arguments, team); });
+  });
 }
 
 }  // namespace eigentrail::app

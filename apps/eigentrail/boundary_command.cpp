@@ -170,27 +170,30 @@ void check_boundary_output(const OutputChoice& output) {
 }
 
 int run_boundary(BoundaryArguments& arguments, Team& team) {
-  const OutputChoice& output = arguments.output;
+  OutputChoice& output = arguments.output;
   Scene scene = given_scene(arguments);
   read_ranges(scene, arguments);
   const BoundarySetup setup = prepare_boundary(std::move(scene), arguments.request);
   warn_of_unused(setup.scene, *setup.model);
   check_boundary_names(setup.scene, setup.options);
+  const SharedRun run = shared_run(setup, arguments.request);
+  const auto unfinished = unfinished_run(output, run, arguments.part, team);
   if (team.leads()) arguments.part ? check_part_output(output) : check_boundary_output(output);
-  const auto workers = team.workers(0);
+  SavingWorkers workers(team.workers(0), *unfinished);
   const std::vector<std::size_t> lines =
       arguments.part.value_or(Part{}).pieces(boundary_lines(setup.options));
   ProgressBar progress(output.quiet);
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::string> scans =
-      scan_boundaries(*setup.model, setup.options, lines, *workers,
+      scan_boundaries(*setup.model, setup.options, lines, workers,
                       [&progress](double share, int points) { progress.update(share, points); });
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!arguments.part) return finish_boundary(setup, scans, output, team, *workers, seconds);
-  if (team.leads())
-    write_part(output, shared_run(setup, arguments.request), *arguments.part, std::move(scans));
-  return done;
+  const auto finish = [&]() -> int {
+    if (!arguments.part) return finish_boundary(setup, scans, output, team, workers, seconds);
+    return team.leads() ? write_part(output, run, *arguments.part, std::move(scans)) : done;
+  };
+  return team.leads() ? end_run(*unfinished, finish) : finish();
 }
 
 }  // namespace
@@ -244,8 +247,7 @@ void add_boundary(CLI::App& program, int& exit_code) {
   command->add_option(
       "--lines", request.lines,
       "inner lines of the window that are searched in either direction, beside its edges (5)");
-  command->add_flag("--force", arguments->output.force, "replace an existing output");
-  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
+  add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n"
       "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --from 200 --to 3000 -o flutter.h5");

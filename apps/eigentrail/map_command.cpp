@@ -166,22 +166,25 @@ int run_map(MapArguments& arguments, Team& team) {
       std::move(scene), {arguments.trace_options.begin(), arguments.trace_options.end()}, arguments.options);
   warn_of_unused(setup.trace.scene, *setup.trace.model);
   check_map_names(setup);
+  const SharedRun run = shared_run(setup, arguments);
+  const auto unfinished = unfinished_run(arguments.output, run, arguments.part, team);
   if (team.leads()) arguments.part ? check_part_output(arguments.output) : check_map_output(arguments.output);
-  const auto workers = team.workers(setup.options.jobs);
+  SavingWorkers workers(team.workers(setup.options.jobs), *unfinished);
   const std::vector<std::size_t> numbers =
       arguments.part.value_or(Part{}).pieces(static_cast<std::size_t>(setup.options.n_second));
   ProgressBar progress(arguments.output.quiet);
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::string> lines = map_lines(setup, numbers, *workers, [&](std::size_t finished) {
+  std::vector<std::string> lines = map_lines(setup, numbers, workers, [&](std::size_t finished) {
     progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
                     static_cast<int>(finished), "lines");
   });
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!team.leads()) return done;
-  if (!arguments.part) return finish_map(setup, lines, arguments.output, seconds);
-  write_part(arguments.output, shared_run(setup, arguments), *arguments.part, std::move(lines));
-  return done;
+  return end_run(*unfinished, [&] {
+    if (arguments.part) return write_part(arguments.output, run, *arguments.part, std::move(lines));
+    return finish_map(setup, lines, arguments.output, seconds);
+  });
 }
 
 }  // namespace
@@ -237,8 +240,7 @@ void add_map(CLI::App& program, int& exit_code) {
       "--no-certify", [arguments] { arguments->trace_options["certify"] = "false"; },
       "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
   command->add_option("--jobs", options.jobs, "threads; 0: one per core");
-  command->add_flag("--force", arguments->output.force, "replace an existing output");
-  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
+  add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
       "40x80 -o "

@@ -140,36 +140,39 @@ int run_sweep(SweepArguments& arguments, Team& team) {
                          .string();
   OutputChoice index = arguments.output;
   index.path = (folder / "index.csv").string();
+  OutputChoice& list = arguments.part ? part_file : index;
+  const SharedRun run = shared_run(scene, arguments, runs);
+  const auto unfinished = unfinished_run(list, run, arguments.part, team);
   if (team.leads()) {
-    check_folder(arguments.output.path, arguments.output.force, numbers, runs.size());
-    arguments.part ? check_part_output(part_file) : check_index(index.path, index.force);
+    check_folder(arguments.output.path, list.force, numbers, runs.size());
+    arguments.part ? check_part_output(list) : check_index(list.path, list.force);
   }
+  arguments.saving.existing = existing(list.force);
   const OptionTexts options(arguments.options.begin(), arguments.options.end());
-  const auto workers = team.workers(arguments.jobs);
+  SavingWorkers workers(team.workers(arguments.jobs), *unfinished);
   ProgressBar progress(arguments.output.quiet);
-  std::vector<std::string> lines = workers->compute(
-      numbers.size(),
-      [&](std::size_t i) {
-        const std::size_t number = numbers[i];
-        const std::vector<double> values = runs.values(number);
-        std::vector<std::string> settings;
-        for (std::size_t k = 0; k < values.size(); ++k)
-          settings.push_back(runs.varied()[k].name + "=" + exact_text(values[k]));
-        const std::string path = (folder / run_name(number, runs.size())).string();
-        SweepRow row = run_of_sweep(scene, settings, options, path, arguments.saving);
-        row.run = number + 1;
-        row.values = values;
-        return std::to_string(row.exit_code) + index_line(row);
-      },
-      [&](std::size_t finished) {
+  const auto trace_one = [&](std::size_t number) {
+    const std::vector<double> values = runs.values(number);
+    std::vector<std::string> settings;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      settings.push_back(runs.varied()[k].name + "=" + exact_text(values[k]));
+    const std::string path = (folder / run_name(number, runs.size())).string();
+    SweepRow row = run_of_sweep(scene, settings, options, path, arguments.saving);
+    row.run = number + 1;
+    row.values = values;
+    return std::to_string(row.exit_code) + index_line(row);
+  };
+  std::vector<std::string> lines = workers.compute(
+      {"run", numbers, trace_one}, [&](std::size_t finished, std::size_t, const std::string&) {
         progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
                         static_cast<int>(finished), "runs");
       });
   progress.finish();
   if (!team.leads()) return done;
-  if (!arguments.part) return finish_sweep(index_header(runs.varied()), lines, index);
-  write_part(part_file, shared_run(scene, arguments, runs), *arguments.part, std::move(lines));
-  return done;
+  return end_run(*unfinished, [&] {
+    if (arguments.part) return write_part(part_file, run, *arguments.part, std::move(lines));
+    return finish_sweep(index_header(runs.varied()), lines, index);
+  });
 }
 
 }  // namespace
@@ -199,9 +202,8 @@ void add_sweep(CLI::App& program, int& exit_code) {
   add_part(*command, arguments->part);
   command->add_option("--jobs", arguments->jobs, "runs at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
-  command->add_flag("--force", arguments->output.force, "replace existing files of the same runs");
+  add_output_flags(*command, arguments->output, "replace existing files of the same runs");
   add_no_lock(*command, arguments->saving);
-  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
   add_trace_options(*command, arguments->options);
   command->footer(
       "Example:\n"
@@ -209,7 +211,6 @@ void add_sweep(CLI::App& program, int& exit_code) {
       "drag");
   command->callback([arguments, output, &exit_code] {
     if (output->count() == 0) arguments->output.path = beside(arguments->scene, "_sweep");
-    arguments->saving.existing = existing(arguments->output.force);
     exit_code = together([&](Team& team) { return run_sweep(*arguments, team); });
   });
 }

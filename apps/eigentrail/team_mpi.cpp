@@ -248,13 +248,15 @@ class MpiWorkers final : public Workers {
       all_threads_ += static_cast<std::size_t>(of_process);
   }
 
-  std::vector<std::string> compute(std::size_t count, const Piece& piece,
-                                   const std::function<void(std::size_t)>& finished) override {
+  std::vector<std::string> compute(const Pieces& pieces, const Finished& finished) override {
     processes_.agree({});
-    std::vector<std::string> results(count);
+    std::vector<std::string> results(pieces.numbers.size());
+    const Piece piece = [&pieces](std::size_t i) { return pieces.compute(pieces.numbers[i]); };
     Outcome outcome;
     if (processes_.leads()) {
-      outcome = lead(piece, results, finished);
+      outcome = lead(piece, results, [&](std::size_t done, std::size_t i, const std::string& result) {
+        finished(done, pieces.numbers[i], result);
+      });
     } else {
       assist(piece);
     }
@@ -267,8 +269,7 @@ class MpiWorkers final : public Workers {
   std::size_t size() const override { return all_threads_; }
 
  private:
-  Outcome lead(const Piece& piece, std::vector<std::string>& results,
-               const std::function<void(std::size_t)>& finished) const;
+  Outcome lead(const Piece& piece, std::vector<std::string>& results, const Finished& finished) const;
   void assist(const Piece& piece) const;
 
   Processes& processes_;
@@ -277,7 +278,7 @@ class MpiWorkers final : public Workers {
 };
 
 Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
-                         const std::function<void(std::size_t)>& finished) const {
+                         const Finished& finished) const {
   ComputingThreads own(threads_, piece);
   Outcome failure;
   std::size_t next = 0, n_finished = 0;
@@ -288,8 +289,9 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
   };
   const auto take = [&](std::int64_t number, Outcome outcome) {
     if (outcome.code == done) {
-      results[static_cast<std::size_t>(number)] = std::move(outcome.bytes);
-      outcome = outcome_of([&] { return finished(++n_finished), std::string(); });
+      const auto i = static_cast<std::size_t>(number);
+      results[i] = std::move(outcome.bytes);
+      outcome = outcome_of([&] { return finished(++n_finished, i, results[i]), std::string(); });
     }
     if (outcome.code != done && failure.code == done) failure = std::move(outcome);
   };

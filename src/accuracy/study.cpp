@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/archive.hpp"
+#include "eigentrail/core/errors.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -66,38 +69,82 @@ std::vector<std::string> find_faults(const StudyOptions& options) {
   return faults;
 }
 
-Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
-                     const std::function<void(int, int)>& progress) {
+// How results are written to an archive and read from it (core/archive.hpp).
+
+template <SameAs<ReferenceSample> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [p, passages] = self;
+  visit(p, passages);
+}
+
+template <SameAs<ReferenceSet> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [samples, unsolved, correction, s_ref] = self;
+  visit(samples, unsolved, correction, s_ref);
+}
+
+template <SameAs<MeasuredRun> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [method, interpolation, tolerance, order, completed, message, points, error, worst_parameter,
+         measured, seconds, factorizations, spectra, evaluations, bytes] = self;
+  visit(method, interpolation, tolerance, order, completed, message, points, error, worst_parameter, measured,
+        seconds, factorizations, spectra, evaluations, bytes);
+}
+
+Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
+                     const std::function<void(int, int)>& progress) try {
   const OptionsGuard guard(setup.options);
   const TraceOptions own = setup.options;
   const std::size_t all_runs = options.tolerances.size() * options.orders.size() + 2 +
                                2 * options.grids.size() * std::size(grid_methods);
-  Study study{reference_set(setup, sample_parameters(own, options.samples)), {}};
-  const auto done = [&](MeasuredRun run) {
-    study.runs.push_back(std::move(run));
-    progress(static_cast<int>(study.runs.size()), static_cast<int>(all_runs));
+  Study study;
+  const auto reference = [&](std::size_t) {
+    return packed(reference_set(setup, sample_parameters(own, options.samples)));
+  };
+  unpack(workers.compute({"reference", {0}, reference}).front(), study.reference);
+  std::size_t number = 0;
+  const auto add = [&](const std::function<std::vector<MeasuredRun>()>& measure) {
+    const auto piece = [&](std::size_t) { return packed(measure()); };
+    std::vector<MeasuredRun> runs;
+    unpack(workers.compute({"measurement", {number++}, piece}).front(), runs);
+    for (MeasuredRun& run : runs) {
+      study.runs.push_back(std::move(run));
+      progress(static_cast<int>(study.runs.size()), static_cast<int>(all_runs));
+    }
+  };
+  const auto add_trace = [&] {
+    add([&] { return std::vector{measure_trace(setup, study.reference, options.repeat)}; });
   };
   for (const int order : options.orders) {
     for (const double tolerance : options.tolerances) {
       setup.options.order = order;
       setup.options.tolerance = tolerance;
-      done(measure_trace(setup, study.reference, options.repeat));
+      add_trace();
     }
   }
   setup.options = own;
   for (const bool certify : {true, false}) {
     setup.options.certify = certify;
-    done(measure_trace(setup, study.reference, options.repeat));
+    add_trace();
   }
   setup.options = own;
   for (const Method method : grid_methods) {
     for (const int points : options.grids) {
-      const GridRuns runs = measure_grid(setup, study.reference, method, points, options.repeat);
-      done(runs.linear);
-      done(runs.spline);
+      add([&] {
+        const GridRuns runs = measure_grid(setup, study.reference, method, points, options.repeat);
+        return std::vector{runs.linear, runs.spline};
+      });
     }
   }
   return study;
+} catch (const ArchiveError& error) {
+  throw InputError(std::string("a measurement is damaged: ") + error.what());
+}
+
+Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
+                     const std::function<void(int, int)>& progress) {
+  Threads one(1);
+  return accuracy_study(setup, options, one, progress);
 }
 
 }  // namespace eigentrail

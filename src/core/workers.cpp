@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "core/parallel.hpp"
@@ -19,15 +20,21 @@ Threads::Threads(int jobs)
     : threads_(jobs > 0 ? static_cast<std::size_t>(jobs)
                         : std::max<std::size_t>(1, std::thread::hardware_concurrency())) {}
 
-std::vector<std::string> Threads::compute(std::size_t count, const Piece& piece,
-                                          const std::function<void(std::size_t)>& finished) {
-  std::vector<std::string> results(count);
+std::vector<std::size_t> numbers_to(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+std::vector<std::string> Threads::compute(const Pieces& pieces, const Finished& finished) {
+  const std::vector<std::size_t>& numbers = pieces.numbers;
+  std::vector<std::string> results(numbers.size());
   std::mutex mutex;
   std::size_t done = 0;
-  in_parallel(count, static_cast<int>(threads_), [&](std::size_t i) {
-    results[i] = piece(i);
+  in_parallel(numbers.size(), static_cast<int>(threads_), [&](std::size_t i) {
+    results[i] = pieces.compute(numbers[i]);
     const std::scoped_lock lock(mutex);
-    finished(++done);
+    finished(++done, numbers[i], results[i]);
   });
   return results;
 }

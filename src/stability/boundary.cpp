@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 #include "stability/boundary_archive.hpp"
@@ -116,8 +115,8 @@ std::vector<ScanLine> scan_lines(int inner) {
 std::vector<std::string> BoundarySearch::scan(const std::vector<std::size_t>& numbers) {
   const std::vector<ScanLine> lines = scan_lines(options_.lines);
   return workers_.compute(
-      numbers.size(), [&](std::size_t i) { return packed(scan_line(window_, options_, lines[numbers[i]])); },
-      [&](std::size_t done) {
+      {"line", numbers, [&](std::size_t line) { return packed(scan_line(window_, options_, lines[line])); }},
+      [&](std::size_t done, std::size_t, const std::string&) {
         report(scanned * static_cast<double>(done) / static_cast<double>(numbers.size()));
       });
 }
@@ -151,11 +150,13 @@ bool BoundarySearch::take(const std::vector<std::string>& scans) {
 }
 
 void BoundarySearch::walk() {
-  const std::vector<std::string> found = workers_.compute(extrema_.size(), [this](std::size_t i) {
+  const auto walk_from = [this](std::size_t extremum) {
     Walk walk;
-    walk.seed = walk_to_boundary(window_, options_, extrema_[i], 0.5 * spacing(), walk.counts);
+    walk.seed = walk_to_boundary(window_, options_, extrema_[extremum], 0.5 * spacing(), walk.counts);
     return packed(walk);
-  });
+  };
+  const std::vector<std::string> found =
+      workers_.compute({"extremum", numbers_to(extrema_.size()), walk_from});
   result_.walks = static_cast<int>(extrema_.size());
   for (const std::string& bytes : found) {
     Walk walk;
@@ -168,8 +169,10 @@ void BoundarySearch::walk() {
 
 /// The first point of a curve from each seed. Notes the seeds from which Newton's method fails.
 void BoundarySearch::start() {
-  const std::vector<std::string> found = workers_.compute(
-      seeds_.size(), [this](std::size_t i) { return packed(start_curve(window_, options_, seeds_[i])); });
+  const auto start_from = [this](std::size_t seed) {
+    return packed(start_curve(window_, options_, seeds_[seed]));
+  };
+  const std::vector<std::string> found = workers_.compute({"start", numbers_to(seeds_.size()), start_from});
   for (const std::string& bytes : found) {
     CurveStart start;
     unpack(bytes, start);
@@ -220,12 +223,13 @@ void BoundarySearch::follow_at_once(const std::vector<std::size_t>& seeds,
     report(share);
   };
   const FollowOptions options{options_.trace.tolerance, options_.trace.max_nodes};
-  const std::vector<std::string> followed = workers_.compute(seeds.size(), [&](std::size_t i) {
+  const auto follow_from = [&](std::size_t seed) {
     Curve result;
-    result.curve = follow_curve(window_, function_of(seeds_[seeds[i]], options_), options, *starts_[seeds[i]],
+    result.curve = follow_curve(window_, function_of(seeds_[seed], options_), options, *starts_[seed],
                                 on_point, result.rejected_steps, result.counts);
     return packed(result);
-  });
+  };
+  const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});
   for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);
 }
 
@@ -327,8 +331,7 @@ BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& option
 BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options, Workers& workers,
                                const BoundaryProgress& progress) {
   const auto begin = std::chrono::steady_clock::now();
-  std::vector<std::size_t> lines(boundary_lines(options));
-  std::iota(lines.begin(), lines.end(), std::size_t{0});
+  const std::vector<std::size_t> lines = numbers_to(boundary_lines(options));
   const std::vector<std::string> scans = scan_boundaries(model, options, lines, workers, progress);
   BoundaryResult result = follow_boundaries(model, options, scans, workers, progress);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

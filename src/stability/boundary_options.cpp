@@ -5,7 +5,6 @@
 
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/scene/traced_parameter.hpp"
 #include "stability/second_parameter.hpp"
 
 namespace eigentrail {
@@ -13,28 +12,6 @@ namespace {
 
 /// Number of values of each parameter at which masses, lengths and the direction of gravity are checked.
 constexpr int checked_points = 9;
-
-/// The range of the first parameter must be given in the request if the scene has no range, or if the
-/// request names another parameter than the scene. Throws InputError.
-void require_first_range(const Scene& scene, const BoundaryRequest& request) {
-  if (request.first_from && request.first_to) return;
-  const std::vector<const Table*> found = tables(scene, "trace");
-  const Table none;
-  const Table& trace = found.empty() ? none : *found.front();
-  const bool another = request.parameter && traced_parameter(scene) != *request.parameter;
-  for (const auto& [key, given] :
-       {std::pair("from", request.first_from), std::pair("to", request.first_to)}) {
-    if (given) continue;
-    const std::string option = "--first-" + std::string(key);
-    if (another)
-      throw InputError(option + ": is missing; the range in the scene is not that of '" + *request.parameter +
-                       "'");
-    if (trace.find(key) == nullptr)
-      throw scene_error(
-          scene, trace.where,
-          "[trace] " + std::string(key) + ": is missing; expected a number, here or as " + option);
-  }
-}
 
 OptionTexts trace_overrides(const BoundaryRequest& request) {
   OptionTexts texts;
@@ -84,7 +61,7 @@ std::vector<Vector> places_to_check(const Scene& scene, const BoundaryOptions& o
 
 BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   check_top_level(scene);
-  require_first_range(scene, request);
+  require_first_range(scene, trace_overrides(request));
   BoundarySetup setup{std::move(scene), {}, nullptr};
   BoundaryOptions& options = setup.options;
   std::set<int> used;

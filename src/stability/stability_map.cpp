@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 #include "continuation/archived_parts.hpp"
@@ -148,6 +147,7 @@ MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOpti
 
 MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
   check_top_level(scene);
+  require_first_range(scene, overrides);
   MapSetup setup{{std::move(scene), {}, nullptr}, options};
   TraceSetup& trace = setup.trace;
   std::set<int> used;
@@ -171,8 +171,8 @@ std::vector<std::string> map_lines(const MapSetup& setup, const std::vector<std:
   const std::vector<double> first = first_values(setup);
   const std::vector<double> seconds = evenly(options.from, options.to, options.n_second);
   return workers.compute(
-      numbers.size(), [&](std::size_t i) { return packed(map_line(setup, seconds[numbers[i]], first)); },
-      finished);
+      {"line", numbers, [&](std::size_t line) { return packed(map_line(setup, seconds[line], first)); }},
+      [&finished](std::size_t done, std::size_t, const std::string&) { finished(done); });
 }
 
 StabilityMap map_of(const MapSetup& setup, const std::vector<std::string>& lines) try {
@@ -191,8 +191,7 @@ StabilityMap map_of(const MapSetup& setup, const std::vector<std::string>& lines
 }
 
 StabilityMap stability_map(const MapSetup& setup, const std::function<void(int)>& done) {
-  std::vector<std::size_t> numbers(static_cast<std::size_t>(setup.options.n_second));
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  const std::vector<std::size_t> numbers = numbers_to(static_cast<std::size_t>(setup.options.n_second));
   Threads threads(setup.options.jobs);
   return map_of(setup, map_lines(setup, numbers, threads,
                                  [&done](std::size_t lines) { done(static_cast<int>(lines)); }));

@@ -1,8 +1,10 @@
 #include "store/differences.hpp"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 #include "eigentrail/core/errors.hpp"
@@ -28,6 +30,27 @@ std::string first_difference(const std::string& before, const std::string& now) 
     if (line_a != line_b)
       return "line " + std::to_string(line) + " was " + in_quotes(line_a) + " and is " + in_quotes(line_b);
   }
+}
+
+std::string changes(const Settings& before, const Settings& now) {
+  std::map<std::string, std::array<std::string, 2>> texts;
+  for (const auto& [label, text] : before) texts[label][0] = text;
+  for (const auto& [label, text] : now) texts[label][1] = text;
+  std::string found;
+  for (const auto& [label, both] : texts) {
+    const auto& [was, is] = both;
+    if (was == is) continue;
+    const bool lines = (was + is).find('\n') != std::string::npos;
+    found += (found.empty() ? "" : "; ") + label + ": " +
+             (lines ? first_difference(was, is) : "was " + in_quotes(was) + " and is " + in_quotes(is));
+  }
+  return found;
+}
+
+void require_same_run(const std::string& path, const Settings& before, const Settings& now) {
+  const std::string found = changes(before, now);
+  if (!found.empty())
+    throw InputError(path + ": cannot be resumed: " + found + "; restore it, or begin anew with --force");
 }
 
 std::string bytes_of_file(const std::string& path) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <map>
 
 #include "core/archive.hpp"
 #include "core/blas.hpp"
@@ -52,22 +51,8 @@ void check_same_run(const PartFile& first, const PartFile& other) {
   const auto refuse = [&](const std::string& reason) {
     throw InputError(other.path + ": belongs to another run than " + first.path + ": " + reason);
   };
-  if (first.run.command != other.run.command)
-    refuse("one is of eigentrail " + first.run.command + ", the other of eigentrail " + other.run.command);
-  const auto difference = [](const std::string& before, const std::string& now) {
-    const bool short_texts = (before + now).find('\n') == std::string::npos;
-    return short_texts ? "was '" + printable(before) + "' and is '" + printable(now) + "'"
-                       : first_difference(before, now);
-  };
-  const std::map<std::string, std::string> before(first.run.settings.begin(), first.run.settings.end());
-  const std::map<std::string, std::string> now(other.run.settings.begin(), other.run.settings.end());
-  for (const auto& [label, text] : before) {
-    const std::string found = other.run.setting(label).value_or("");
-    if (found != text) refuse(label + ": " + difference(text, found));
-  }
-  for (const auto& [label, text] : now) {
-    if (!before.contains(label)) refuse(label + ": " + difference("", text));
-  }
+  const std::string found = changes(first.run.all_settings(), other.run.all_settings());
+  if (!found.empty()) refuse(found);
   if (first.part.count != other.part.count)
     throw InputError(other.path + ": is " + part_name(other.part) + ", but " + first.path + " is " +
                      part_name(first.part) + "; merge the parts of one division");
@@ -99,7 +84,13 @@ std::optional<std::string> SharedRun::setting(const std::string& label) const {
   return found == settings.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene) {
+Settings SharedRun::all_settings() const {
+  Settings all = settings;
+  all.emplace_back("command", command);
+  return all;
+}
+
+Settings settings_of(const Scene& scene) {
   std::string files;
   add_files(scene.root, std::filesystem::path(scene.path).parent_path(), files);
   return {{"version", version()}, {"scene", scene.text}, {"files of the scene", files}};

@@ -8,7 +8,6 @@
 #include "core/blas.hpp"
 #include "core/fingerprint.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "store/differences.hpp"
@@ -26,25 +25,13 @@ struct Mark {
 };
 
 void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& options) {
-  const std::string advice = "; restore it, or trace anew with --force";
-  if (loci.attribute("program_version") != version()) {
-    throw InputError(loci.path + ": cannot be resumed: it was written by eigentrail " +
-                     printable(loci.attribute("program_version")) + ", this is " + version() +
-                     "; trace anew with --force");
-  }
-  if (loci.attribute("scene") != scene.text) {
-    throw InputError(loci.path + ": cannot be resumed: the scene has changed since: " +
-                     first_difference(loci.attribute("scene"), scene.text) + advice);
-  }
-  std::string differences;
+  Settings before{{"version", loci.attribute("program_version")}, {"scene", loci.attribute("scene")}};
+  Settings now{{"version", version()}, {"scene", scene.text}};
   for (const auto& [key, text] : describe_options(options)) {
-    const std::string& before = loci.attribute("option_" + key);
-    if (before == text) continue;
-    differences +=
-        (differences.empty() ? "" : ", ") + key + " was " + printable(before) + " and is " + printable(text);
+    before.emplace_back(key, loci.attribute("option_" + key));
+    now.emplace_back(key, text);
   }
-  if (!differences.empty())
-    throw InputError(loci.path + ": cannot be resumed: other options: " + differences + advice);
+  require_same_run(loci.path, before, now);
 }
 
 }  // namespace
@@ -65,10 +52,10 @@ SavedTrace split(const std::string& path, std::string_view bytes) {
   const bool has_mark = bytes.size() >= sizeof mark;
   if (has_mark) std::memcpy(&mark, bytes.data() + bytes.size() - sizeof mark, sizeof mark);
   if (!has_mark || std::string_view(mark.name.data(), mark.name.size()) != Mark::text)
-    throw InputError(path + ": cannot be resumed: it holds no state of the trace; trace anew with --force");
+    throw InputError(path + ": cannot be resumed: it holds no state of the trace; begin anew with --force");
   const std::string_view before = bytes.substr(0, bytes.size() - sizeof mark);
   if (mark.size > before.size() || fingerprint(before) != mark.checksum)
-    throw InputError(path + ": cannot be resumed: it is damaged; trace anew with --force");
+    throw InputError(path + ": cannot be resumed: it is damaged; begin anew with --force");
   const std::string_view state = before.substr(before.size() - mark.size);
   SavedTrace saved;
   ArchiveReader archive(state);

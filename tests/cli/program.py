@@ -149,6 +149,9 @@ axis = [0, 1, 0]
 """
 
 
+# What shows that a message comes from a library.
+LIBRARIES = r"HDF5-DIAG|terminate called|std::|toml::|CLI::|Eigen::|Traceback"
+
 PLACE = "§"  # in a scene: where the message must point; it is taken out before the run
 
 
@@ -221,5 +224,6 @@ class ProgramTest(unittest.TestCase):
         self.assertTrue(run.stderr.startswith(beginning), f"{run.stderr!r} does not begin {beginning!r}")
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
         self.assertTrue(run.stderr.endswith("\n"), run.stderr)
+        self.assertNotRegex(run.stderr, LIBRARIES)
         for fragment in fragments:
             self.assertIn(fragment, run.stderr)

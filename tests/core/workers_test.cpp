@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "eigentrail/core/errors.hpp"
@@ -14,10 +15,16 @@ TEST(Workers, ThreadsReturnResultsInOrder) {
     Threads threads(jobs);
     EXPECT_EQ(threads.size(), static_cast<std::size_t>(jobs));
     std::size_t last = 0;
+    const auto square = [](std::size_t i) { return std::to_string(i * i); };
+    std::vector<std::size_t> numbers = numbers_to(17);
+    std::reverse(numbers.begin(), numbers.end());
     const auto results = threads.compute(
-        17, [](std::size_t i) { return std::to_string(i * i); }, [&last](std::size_t done) { last = done; });
+        {"square", numbers, square}, [&](std::size_t done, std::size_t number, const std::string& result) {
+          last = done;
+          EXPECT_EQ(result, square(number));
+        });
     ASSERT_EQ(results.size(), 17u);
-    for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i], std::to_string(i * i));
+    for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i], square(numbers[i]));
     EXPECT_EQ(last, 17u);
   }
 }
@@ -25,7 +32,7 @@ TEST(Workers, ThreadsReturnResultsInOrder) {
 TEST(Workers, ErrorOfAPieceIsRethrown) {
   Threads threads(3);
   const auto fails = [](std::size_t i) { return i == 4 ? throw InputError("four") : std::string(); };
-  EXPECT_THROW(threads.compute(9, fails, [](std::size_t) {}), InputError);
+  EXPECT_THROW(threads.compute({"piece", numbers_to(9), fails}, [](auto...) {}), InputError);
 }
 
 TEST(Workers, PartsShareAllPiecesAndNoneTwice) {

@@ -215,6 +215,14 @@ class OtherFiles(ProgramTest):
             with self.assertRaisesRegex(eigentrail.Error, text):
                 eigentrail.open(self.folder / name)
 
+    def test_names_that_are_no_text_are_told(self):
+        path = self.folder / "damaged.h5"
+        with h5py.File(path, "w") as file:
+            file.attrs.update({"format": "eigentrail-map", "schema_version": 1})
+            file[b"none\xff"] = h5py.SoftLink("/none")
+        with self.assertRaisesRegex(eigentrail.Error, "damaged.h5: .*none\ufffd"):
+            eigentrail.open(path)
+
     def assert_refused_with(self, attributes, text):
         path = self.folder / "other.h5"
         with h5py.File(path, "w") as file:

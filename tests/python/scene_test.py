@@ -91,7 +91,7 @@ class Faults(unittest.TestCase):
         self.assert_fails(TypeError, "expected a scene", et.trace, 3)
         self.assert_fails(et.SceneError, "tolerance", et.trace, BLADE, tolerance=2)
         self.assert_fails(TypeError, "drag: expected a number", et.trace, BLADE, drag=None)
-        self.assert_fails(et.SceneError, "at: expected values", et.spectrum, BLADE, at="x")
+        self.assert_fails(et.SceneError, "at: expected finite numbers", et.spectrum, BLADE, at="x")
         self.assert_fails(ValueError, "is no HDF5 file", et.open, __file__)
         self.assert_fails(FileNotFoundError, "no such folder", et.trace(FAMILY).eigentrail.save, "/nowhere/at/all.h5")
 
@@ -99,7 +99,7 @@ class Faults(unittest.TestCase):
         self.assert_fails(et.SceneError, "expected a range of two values", et.trace, BLADE, omega=(1, 2, 3))
         self.assert_fails(et.SceneError, "the range of one parameter", et.trace, BLADE, omega=(1, 2), drag=(1, 2))
         self.assert_fails(et.SceneError, "the ranges of two parameters", et.map, BLADE)
-        self.assert_fails(TypeError, "numbers in the unit", et.map, BLADE, drag=("1", "2"))
+        self.assert_fails(et.SceneError, "numbers in the unit", et.map, BLADE, drag=("1", "2"))
 
     def test_names_that_mean_nothing_are_errors_with_a_suggestion(self):
         trace, family = partial(et.trace, BLADE), et.Family(M=[[1.0]], K=[[[1.0]], [[1.0]]], parameter="p")

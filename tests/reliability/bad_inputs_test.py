@@ -26,9 +26,11 @@ from program import ProgramTest, each_case
 
 
 class BadScene(ProgramTest):
-    """What traces the scene refuses it and, where the fault is in its text, what explains it does with the same words."""
+    """What traces the scene refuses it and, where the fault is in its text, what explains it does with the same words. Every
+    eighth row is explained."""
 
     explained = True
+    row = 0
 
     def check(self, scene, fragments, *more_edits):
         where = self.write_marked(scene, more_edits)
@@ -36,7 +38,8 @@ class BadScene(ProgramTest):
         before = self.contents()
         run = self.run_program("trace", "scene.toml", "-o", "loci.h5")
         self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where} ")
-        if where and self.explained:
+        BadScene.row += 1
+        if where and self.explained and BadScene.row % 8 == 0:
             again = self.run_program("explain", "scene.toml")
             self.assertEqual((again.returncode, again.stdout, again.stderr), (run.returncode, "", run.stderr))
         self.assertEqual(self.contents(), before)

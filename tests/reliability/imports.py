@@ -208,7 +208,7 @@ def npz(**arrays):
 
 def zip_of(**entries):
     stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for name, content in entries.items():
             archive.writestr(f"{name}.npy", content)
     return stream.getvalue()
@@ -240,7 +240,7 @@ def mat_of_zeros(rows, numbers, compress):
 
     parts = [(6, struct.pack("<2I", 6, 0)), (5, struct.pack("<2i", rows, rows)), (1, b"A"), (9, bytes(8 * numbers))]
     matrix = element(14, b"".join(element(*part) for part in parts))
-    packed = zlib.compress(matrix)
+    packed = zlib.compress(matrix, 1) if compress else b""
     return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + (struct.pack("<2i", 15, len(packed)) + packed if compress else matrix)
 
 

@@ -1,10 +1,12 @@
-"""Kills traces at random times, resumes them, and compares the files bit for bit with uninterrupted ones.
+"""Kills commands at random times, resumes or repeats them, and compares the files bit for bit with uninterrupted ones.
 
-    kills.py [--kills 1000] [--seed 1]        kills by SIGKILL
+    kills.py [--kills 1000] [--seed 1]        traces, by SIGKILL
+    kills.py --commands 60                    each of the other commands that write
     kills.py --full-disk 100                  a file system that fills up, in place of kills (needs to mount, or a
                                               limit on the size of files stands for it)
 
-EIGENTRAIL names the program. Every file that is left must open and hold a prefix of the whole trace.
+EIGENTRAIL names the program. Every file of a trace that is left must open and hold a prefix of the whole one; other outputs
+are absent or whole.
 """
 
 import argparse
@@ -21,23 +23,27 @@ import tempfile
 import time
 
 import h5py
+import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
 from loci_comparison import differences  # noqa: E402
-from program import BLADE, PUSHED_PENDULUM, edited  # noqa: E402
+from program import BLADE, CURVES, PUSHED_PENDULUM, edited  # noqa: E402
 
 PROGRAM = os.environ["EIGENTRAIL"]
 SCENES = pathlib.Path(os.environ["EIGENTRAIL_DATA"]) / "scenes"
 
 
-def scenes():
-    """Traces of several sizes: from a few points to thousands, from one mode to many, with branches and folds."""
-    yield "long", edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02"), []
+def scenes(quick):
+    """Traces of several sizes: from a few points to thousands, from one mode to many, with branches and folds. `quick`: those
+    of less than a second."""
     yield "short", BLADE, []
+    for name, options in (("ground_resonance", []), ("watt_governor", ["--max-step", "0.5"])):
+        yield name, (SCENES / f"{name}.toml").read_text(encoding="utf-8"), options
+    if quick:
+        return
+    yield "long", edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.02"), []
     yield "fold", PUSHED_PENDULUM, ["--tolerance", "1e-8", "--max-step", "0.001"]
-    for name in ("rotating_mass", "ground_resonance", "princeton_blade", "watt_governor"):
-        options = {"ground_resonance": [], "rotating_mass": ["--max-step", "0.05"],
-                   "watt_governor": ["--max-step", "0.5"]}.get(name, [])
+    for name, options in (("rotating_mass", ["--max-step", "0.05"]), ("princeton_blade", [])):
         yield name, (SCENES / f"{name}.toml").read_text(encoding="utf-8"), options
 
 
@@ -110,6 +116,76 @@ def kill_once(trace, chance, counts):
     counts.resumed += 1
 
 
+PLANE = ["scene.toml", "--second", "drag", "--from", "0.5", "--to", "20"]
+RESUMED = {  # these go on with what they have computed
+    "map": ["map", *PLANE, "--grid", "60x20", "--jobs", "1", "--quiet"],
+    "boundary": ["boundary", "plane.toml", "--second", "q", "--from", "-1", "--to", "1", "--lines", "20", "--quiet"],
+    "accuracy": ["accuracy", "scene.toml", "--tolerances", "1e-4,1e-6,1e-8", "--grids", "25,50", "--samples", "20", "--repeat", "1", "--quiet"],
+    "sweep": ["sweep", "scene.toml", "--vary", "drag=1:1:12", "--jobs", "2", "--quiet"],
+}
+REPEATED = {  # these are short
+    "import": ["import", "numpy", "matrices.npz"],
+    "export": ["export", "loci.h5"],
+    "report": ["report", "loci.h5"],
+    "plot": ["plot", "loci.h5"],
+}
+ENDINGS = {"export": ".csv", "report": ".html", "plot": ".svg", "sweep": "", "import": ""}
+MEASURED = {"wall_time"}  # datasets of measured times
+
+
+def make_inputs(folder):
+    (folder / "scene.toml").write_text(BLADE)
+    (folder / "plane.toml").write_text(CURVES)
+    np.savez(folder / "matrices.npz", M=np.eye(40), K=np.arange(1600.0).reshape(40, 40))
+    subprocess.run([PROGRAM, "trace", "scene.toml", "-o", "loci.h5", "--quiet"], cwd=folder, check=True)
+
+
+def is_whole(path, whole):
+    """Whether an output, a file or a folder, is the whole one but for measured times."""
+    if whole.is_dir():
+        return sorted(one.name for one in path.iterdir()) == sorted(one.name for one in whole.iterdir()) \
+            and all(is_whole(path / one.name, one) for one in whole.iterdir())
+    if whole.suffix != ".h5":
+        return path.read_bytes() == whole.read_bytes()
+    return not set(differences(path, whole)) - MEASURED
+
+
+def kill_command(folder, name, kills, chance, counts):
+    """Kills one command again and again; each time what is left is completed, and compared."""
+    begin = time.monotonic()
+    command = {**RESUMED, **REPEATED}[name]
+    whole, output = (folder / f"{word}_{name}{ENDINGS.get(name, '.h5')}" for word in ("whole", "out"))
+    subprocess.run([PROGRAM, *command, "-o", whole.name], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    seconds = time.monotonic() - begin
+    present = set(folder.iterdir())
+    for _ in range(kills):
+        resumed = False
+        while True:
+            more = ["--resume"] if name in RESUMED and resumed else []
+            run = subprocess.Popen([PROGRAM, *command, "-o", output.name, *more], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            time.sleep(chance.random() * 1.1 * seconds)
+            run.kill()
+            said = run.communicate()[1].decode()
+            counts.killed += run.returncode == -signal.SIGKILL
+            counts.too_late += run.returncode == 0
+            assert run.returncode in (0, -signal.SIGKILL) or "exists already" in said, (run.args, said)
+            if ENDINGS.get(name) and output.exists():
+                assert is_whole(output, whole), output
+            resumed = True
+            if name in REPEATED or chance.random() < 0.5:
+                break
+        done = subprocess.run([PROGRAM, *command, "-o", output.name, *(["--resume"] if name in RESUMED else [])],
+                              cwd=folder, capture_output=True, text=True, check=False)
+        assert done.returncode == 0 or "exists already" in done.stderr, done.stderr
+        assert is_whole(output, whole), output
+        shutil.rmtree(output) if output.is_dir() else output.unlink()
+        for other in set(folder.iterdir()) - present:
+            assert other.stem.startswith(output.stem), other
+            other.unlink()
+        counts.resumed += 1
+    print(f"{name}: {seconds:.2f} s", flush=True)
+
+
 class SmallDisk:
     """A file system of a given size if one can be mounted; otherwise a limit on the size of files."""
 
@@ -162,6 +238,7 @@ def fill_once(trace, chance, counts):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--commands", type=int, default=0)
     parser.add_argument("--full-disk", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
@@ -169,11 +246,18 @@ def main():
     counts = Counts()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="eigentrail-kills-"))
     try:
-        traces = [Trace(folder, *scene) for scene in scenes()]
+        if arguments.commands:
+            make_inputs(folder)
+            for name in {**RESUMED, **REPEATED}:
+                kill_command(folder, name, arguments.commands, chance, counts)
+            print(f"{counts.killed} killed, {counts.too_late} had ended before; {counts.resumed} resumed or repeated and equal bit for bit")
+            return
+        runs = arguments.full_disk or arguments.kills
+        traces = [Trace(folder, *scene) for scene in scenes(quick=runs < 100)]
         for trace in traces:
             print(f"{trace.folder.name}: {trace.seconds:.2f} s, {trace.size} bytes", flush=True)
         how = "killed"
-        for i in range(arguments.full_disk or arguments.kills):
+        for i in range(runs):
             trace = traces[i % len(traces)]
             if arguments.full_disk:
                 mounted = fill_once(trace, chance, counts)

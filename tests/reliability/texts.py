@@ -78,9 +78,9 @@ MISSING_KEYS = [
     blade("missing value of a parameter", "{ value = 40.0, unit", "{ unit", "[parameters] omega: expected value =")
     + (("omega  =", "§omega  ="),),
     blade("missing from", "[trace]\nparameter = \"omega\"\nfrom = 100.0", '§[trace]\nparameter = "omega"',
-          "[trace] from: is missing", "or as an option"),
+          "[trace] from: is missing", "here or as --from"),
     blade("missing to", "[trace]\nparameter = \"omega\"\nfrom = 100.0\nto = 5.0",
-          '§[trace]\nparameter = "omega"\nfrom = 100.0', "[trace] to: is missing", "or as an option"),
+          '§[trace]\nparameter = "omega"\nfrom = 100.0', "[trace] to: is missing", "here or as --to"),
     blade("missing traced parameter", '[trace]\nparameter = "omega"', "§[trace]",
           "[trace] parameter: is missing", "name the parameter"),
     family("missing K", "K = [[[1, 0], [0, 2]], [[0, 1], [1, 0]]]", "", "[matrix_family] K: is missing")

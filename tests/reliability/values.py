@@ -256,7 +256,7 @@ TRACE = [
     blade("traced parameter that is a point", 'parameter = "omega"', '§parameter = "blade"',
           "[trace] parameter: no parameter is called 'blade'", "known: omega, mass, length, drag"),
     blade("scene without a trace", '[trace]\nparameter = "omega"\nfrom = 100.0\nto = 5.0', "", "[trace] from: is missing",
-          "or as an option"),
+          "here or as --from"),
 ]
 
 EVENTS = [

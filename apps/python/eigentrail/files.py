@@ -8,6 +8,7 @@ from typing import Any, Union
 import numpy as np
 import xarray
 
+from .checked import checked
 from .engine import engine
 from .errors import SceneError
 
@@ -31,6 +32,7 @@ COORDINATES = {
 Contents = tuple[dict[str, Any], dict[str, Any]]  # {name: (array, attributes)} of the datasets; attributes of the file
 
 
+@checked
 def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
     """Reads a file written by eigentrail into memory: an xarray Dataset with labels as coordinates.
 

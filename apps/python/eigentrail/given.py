@@ -5,9 +5,11 @@ import os
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
+from numbers import Real
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
+import xarray
 
 from . import toml
 from .engine import engine
@@ -44,6 +46,8 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
          functions: bool = False, events: Optional[Mapping[str, Any]] = None) -> Given:
     """`values`: per parameter a number, a text such as "300 rpm" or an expression, or a pair: a range. `functions`: whether
     a family may be given by a function. `command`: the function that was called with `values`, among other keywords."""
+    if isinstance(source, xarray.Dataset):
+        raise TypeError("expected a scene, found a result; the scene of a result is its .attrs['scene']")
     if not functions and getattr(source, "function", None) is not None:
         raise SceneError("a family that a function gives can be traced only: the function knows one parameter, and is called "
                          "for one range; give its matrices as a Family of powers and names, or as Samples")
@@ -82,10 +86,15 @@ def option_text(key: str, value: Any) -> str:
 
 
 def number(name: str, value: Any) -> float:
-    """The end of a range that must be a number, in the unit of its parameter."""
-    if isinstance(value, str):
-        raise TypeError(f"{name}: expected numbers in the unit of the parameter, found {value!r}")
+    """A value of a parameter that must be a number, in its unit."""
+    if not isinstance(value, Real) or not np.isfinite(value):
+        raise SceneError(f"{name}: expected finite numbers in the unit of the parameter, found {value!r}")
     return float(value)
+
+
+def within(name: str, value: int, most: int) -> None:
+    if not 0 <= value <= most:
+        raise SceneError(f"{name}: expected 0 to {most}, found {value}")
 
 
 def _require_known(command: Callable[..., Any], names: Iterable[str], parameters: Sequence[str]) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pandas
 import xarray
 
+from .checked import checked
 from .engine import engine
 from .errors import SceneError
 from .files import ATTACHED
@@ -23,6 +24,7 @@ class Least(NamedTuple):
     mode: int
 
 
+@checked
 def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = None, event: int = 0,
              **at: Any) -> pandas.Series:
     """Derivatives of a result of `trace` with respect to all parameters of its scene, in their units.
@@ -68,6 +70,7 @@ def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = Non
     return _of_mode(loci, quantity, value, labels.index(str(chosen.mode.values)))
 
 
+@checked
 def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     """The least damping ratio of all modes, or of one, on the whole range of a trace, from its dense output.
 

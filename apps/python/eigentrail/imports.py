@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Sequence
 from typing import Any, Union
 
+from .checked import checked
 from .engine import engine
 from .errors import SceneError
 from .files import write
@@ -53,6 +54,7 @@ def from_openfast(files: Files, **options: Any) -> Imported:
     return from_files("openfast", files, **options)
 
 
+@checked
 def from_files(format: str, files: Files, **options: Any) -> Imported:
     """Files of any format that `eigentrail import` reads: openfast, matrix-market, matlab, nastran, numpy."""
     paths = _paths(files)

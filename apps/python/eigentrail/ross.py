@@ -27,6 +27,8 @@ def from_ross(rotor: Any, speeds: Any = None, *, probes: Sequence[Any] = (), tit
     ("disk 0 x").
     Raises SceneError where the state matrix differs from rotor.A(speed).
     """
+    if not all(hasattr(rotor, matrix) for matrix in "MCKG"):
+        raise TypeError(f"rotor: expected a Rotor of ROSS, found {type(rotor).__name__}")
     names = _names(rotor, probes)
     tables = [np.asarray(table, float) for table in _tables(rotor)]
     if speeds is None and not tables:

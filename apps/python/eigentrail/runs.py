@@ -10,14 +10,16 @@ import pandas
 import xarray
 
 from . import files
+from .checked import checked
 from .engine import engine
 from .errors import SceneError, TraceError
-from .given import Attached, Given, Source, give, number, option_text
+from .given import Attached, Given, Source, give, number, option_text, within
 from .progress import Bar, Progress
 
 Options = list[tuple[str, str]]
 
 
+@checked
 def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None, certify: Optional[bool] = None,
           settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None,
           events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
@@ -75,8 +77,9 @@ def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any =
                events: Optional[Mapping[str, Any]] = None, threads: int = 0, progress: Progress = None,
                **parameters: Any) -> Run:
     """The same without reading the file."""
+    within("threads", threads, 1024)
     given = give(trace, scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
-    chosen = _trace_options(given, tolerance=tolerance, modes=modes, certify=certify, **(options or {}))
+    chosen = _trace_options(given, options, tolerance=tolerance, modes=modes, certify=certify)
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().trace(given.scene, chosen, given.function, threads, show)
     if not outcome.file:
@@ -89,6 +92,7 @@ def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any =
     return Run(outcome.file, outcome.message, remarks, given.attached)
 
 
+@checked
 def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio: Optional[float] = None,
              lines: Optional[int] = None, settings: Optional[Mapping[str, Any]] = None, progress: Progress = None,
              **parameters: Any) -> xarray.Dataset:
@@ -117,6 +121,7 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     return _result(given, outcome)
 
 
+@checked
 def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Optional[float] = None,
         settings: Optional[Mapping[str, Any]] = None, options: Optional[Mapping[str, Any]] = None, jobs: int = 0,
         progress: Progress = None, **parameters: Any) -> xarray.Dataset:
@@ -139,12 +144,13 @@ def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Opt
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     rows, columns = (grid, grid) if isinstance(grid, int) else grid
-    chosen = _trace_options(given, first, tolerance=tolerance, **(options or {}))
+    chosen = _trace_options(given, options, first, tolerance=tolerance)
     with Bar(progress, given.scene.title or given.scene.path) as show:
         outcome = engine().stability_map(given.scene, chosen, second, low, high, rows, columns, jobs, show)
     return _result(given, outcome)
 
 
+@checked
 def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, orders: Sequence[int] = (1, 2, 3, 4),
              grids: Sequence[int] = (25, 50, 100, 200, 400, 800), samples: int = 200, repeat: int = 5,
              settings: Optional[Mapping[str, Any]] = None, progress: Progress = None, **parameters: Any) -> xarray.Dataset:
@@ -169,6 +175,7 @@ def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, ord
     return _result(given, outcome)
 
 
+@checked
 def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Optional[Mapping[str, Any]] = None,
              options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> pandas.DataFrame:
     """The eigenvalues at one or several values of the traced parameter, by QZ: a table, one row per mode.
@@ -188,11 +195,8 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     1  0.25     2            1.3894
     """
     given = give(spectrum, scene, {**(settings or {}), **parameters})
-    chosen = _trace_options(given, modes=modes, **(options or {}))
-    try:
-        values = [_begin(given)] if at is None else [float(value) for value in np.atleast_1d(at)]
-    except ValueError:
-        raise SceneError(f"at: expected values of the traced parameter, in its unit; found {at!r}") from None
+    chosen = _trace_options(given, options, modes=modes)
+    values = [_begin(given)] if at is None else [number("at", value) for value in np.atleast_1d(at)]
     found = engine().spectrum(given.scene, chosen, values)
     faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
     if faults and not found["rows"]:
@@ -210,6 +214,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     return table.rename(columns={"parameter": given.scene.traced or next(iter(given.ranges), "parameter")})
 
 
+@checked
 def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapping[str, Any]] = None,
             options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> "Explanation":
     """What a scene simulates and how it will be solved: effects, structure, sizes, solvers; a text.
@@ -224,7 +229,7 @@ def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapp
     2 freedoms: 2 coordinates, no constraints.
     """
     given = give(explain, scene, {**(settings or {}), **parameters})
-    text = engine().explain(given.scene, _trace_options(given, **(options or {})), sensitivity)
+    text = engine().explain(given.scene, _trace_options(given, options), sensitivity)
     _tell(given.warnings)
     return Explanation(text)
 
@@ -236,6 +241,7 @@ class Explanation(str):
         return str(self)
 
 
+@checked
 def events(loci: xarray.Dataset) -> pandas.DataFrame:
     """Special points of a trace: a table, one row per event; the same as `loci.eigentrail.events`.
 
@@ -249,13 +255,17 @@ def events(loci: xarray.Dataset) -> pandas.DataFrame:
     return loci.eigentrail.events
 
 
-def _trace_options(given: Given, first: Optional[str] = None, **options: Any) -> Options:
-    """Options as texts; `first` is the traced parameter, by default the one with a range."""
+def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, first: Optional[str] = None,
+                   **options: Any) -> Options:
+    """Options as texts, those of the dict `others` too; `first` is the traced parameter, by default the one with a range."""
     if first is None and given.ranges:
         if len(given.ranges) > 1:
             raise SceneError(f"expected the range of one parameter, found those of {', '.join(given.ranges)}")
         first = next(iter(given.ranges))
-    chosen = [(key, option_text(key, value)) for key, value in options.items() if value is not None]
+    twice = [key for key, value in options.items() if value is not None and key in (others or {})]
+    if twice:
+        raise SceneError(f"{twice[0]}: is a keyword, and among the options; give one of them")
+    chosen = [(key, option_text(key, value)) for key, value in {**options, **(others or {})}.items() if value is not None]
     if first is None:
         return chosen
     named = [] if first == given.scene.traced else [("parameter", first)]

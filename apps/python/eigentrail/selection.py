@@ -43,7 +43,10 @@ class Selection:
 
     def _indexer(self, wanted):
         """The name of the dimension (None for a number) and the values (n)."""
-        values = np.asarray(wanted, float)
+        try:
+            values = np.asarray(wanted, float)
+        except (TypeError, ValueError):
+            raise SceneError(f"{self._parameter.name}: expected numbers, found {wanted!r}") from None
         if values.ndim > 1:
             raise SceneError(f"{self._parameter.name} = an array of shape {values.shape}: expected a number or a list")
         if not np.all(np.isfinite(values)):

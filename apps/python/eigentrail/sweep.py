@@ -10,9 +10,10 @@ from typing import Any, Optional
 import numpy as np
 import xarray
 
+from .checked import checked
 from .engine import engine
 from .errors import SceneError, TraceError
-from .given import Source
+from .given import Source, within
 from .progress import Bar, Progress
 from .files import FOR_SELECTION, part, part_like, read
 from .runs import Run, trace_file
@@ -23,6 +24,7 @@ TIE = 0.01
 COLUMNS = ("eigenvalue", "natural_frequency", "damped_frequency", "damping_ratio", "certified")
 
 
+@checked
 def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201, jobs: int = 0, progress: Progress = None,
           **how: Any) -> xarray.Dataset:
     """Traces a scene at all combinations of the values `over`: one Dataset with a dimension for each of them.
@@ -51,6 +53,9 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
     values = {name: list(over[name]) for name in names}
     if not names or any(not column for column in values.values()):
         raise SceneError("expected values of at least one parameter: {'damping': [500, 1000, 2000]}")
+    within("jobs", jobs, 1024)
+    if np.asarray(points).dtype.kind not in "iuf" or np.size(points) == 0 or np.ndim(points) == 0 and points < 2:
+        raise SceneError(f"points: expected the number of values of the traced parameter, 2 at least, or a list of values; found {points!r}")
     both = [name for name in names if name in how]
     if both:
         raise SceneError(f"{both[0]}: is swept, and has a value of its own; give one of them")

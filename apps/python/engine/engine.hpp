@@ -40,6 +40,9 @@ struct FunctionSource {
   std::vector<std::string> state_names;
 };
 
+/// Text in UTF-8; bytes that are none, as damaged files have them, become replacement characters.
+pybind11::object as_text(const std::string& text);
+
 void add_scenes(pybind11::module_& module);
 void add_runs(pybind11::module_& module);
 void add_points(pybind11::module_& module);

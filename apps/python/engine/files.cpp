@@ -17,6 +17,11 @@ namespace py = pybind11;
 using namespace py::literals;
 
 namespace eigentrail::python {
+py::object as_text(const std::string& text) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+}
+
 namespace {
 
 /// Writes a scene and its matrices to `folder`, as `eigentrail import` does.
@@ -37,12 +42,6 @@ std::map<std::string, std::map<std::string, std::string>> formats() {
   std::map<std::string, std::map<std::string, std::string>> result;
   for (const Importer& importer : importers()) result[importer.format] = importer.options;
   return result;
-}
-
-/// Text in UTF-8; bytes that are none, as damaged files have them, become replacement characters.
-py::object as_text(const std::string& text) {
-  return py::reinterpret_steal<py::object>(
-      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
 }
 
 /// An array of NumPy that owns its values; texts are objects.

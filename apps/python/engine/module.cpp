@@ -11,8 +11,12 @@ namespace py = pybind11;
 
 namespace {
 
-/// Options of the program are keywords here: --damping-ratio is damping_ratio.
+/// Options of the program are keywords here: --damping-ratio is damping_ratio, and a range has both its ends.
 std::string in_words_of_python(std::string message) {
+  for (const std::string end : {"as --from", "as --to", "as --first-from", "as --first-to"}) {
+    const std::size_t at = message.find(end);
+    if (at != std::string::npos) message.replace(at, end.size(), "as a range such as speed=(0, 400)");
+  }
   const auto is_letter = [&](std::size_t at) {
     return at < message.size() && message[at] >= 'a' && message[at] <= 'z';
   };
@@ -35,7 +39,7 @@ void raise_as(const char* name) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const CppError& found) {
-      PyErr_SetString(raised, in_words_of_python(found.what()).c_str());
+      PyErr_SetObject(raised, eigentrail::python::as_text(in_words_of_python(found.what())).ptr());
     }
   });
 }

@@ -10,6 +10,7 @@
 
 #include "eigentrail/accuracy/reference.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
+#include "eigentrail/core/workers.hpp"
 
 namespace eigentrail {
 
@@ -101,8 +102,11 @@ struct GridRuns {
 GridRuns measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Method method, int points,
                       int repeat);
 
-/// The whole study. `progress` is called with the number of finished runs and the number of all runs. The
-/// options of `setup` are changed during the study and restored at the end.
+/// The whole study. `progress` is called with the number of finished runs and the number of all runs.
+/// `workers` compute one piece at a time. The options of `setup` are changed during the study and restored at
+/// the end.
+Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
+                     const std::function<void(int, int)>& progress);
 Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
                      const std::function<void(int, int)>& progress);
 

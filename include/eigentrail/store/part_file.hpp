@@ -20,14 +20,20 @@ namespace eigentrail {
 inline constexpr const char* part_format = "eigentrail-part";
 inline constexpr int part_schema_version = 1;
 
+/// What a result depends on, as labels and texts.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 /// What is the same in all parts of a run.
 struct SharedRun {
-  std::string command;     ///< "map", "boundary" or "sweep"
+  std::string command;     ///< "map", "boundary", "sweep" or "accuracy"
   std::string scene_path;  ///< as the user gave it; may differ
-  /// What the result depends on, as labels and texts: version, scene, contents of its files, options. The
-  /// command goes on from these when the parts are joined.
-  std::vector<std::pair<std::string, std::string>> settings;
+  /// Version, scene, contents of its files, options. The command goes on from these when the parts are
+  /// joined.
+  Settings settings;
   std::size_t n_pieces = 0;
+
+  /// The settings and the command.
+  Settings all_settings() const;
 
   /// The text of a setting; empty if there is none of this label.
   std::optional<std::string> setting(const std::string& label) const;
@@ -43,7 +49,7 @@ struct PartFile {
 
 /// The settings that every run has: version of the program, scene, and the contents of the files that the
 /// scene names.
-std::vector<std::pair<std::string, std::string>> settings_of(const Scene& scene);
+Settings settings_of(const Scene& scene);
 
 /// Writes the file as write_durably does.
 void write_part(const PartFile& file, Existing existing);

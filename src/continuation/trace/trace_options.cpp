@@ -279,13 +279,15 @@ TraceOptions read_trace_options(const Scene& scene, const OptionTexts& overrides
       if (edge > 0.0) options.events.wanted.push_back({EventKind::band_edge, edge});
     }
   }
-  // One value of the parameter is enough to look at single values.
+  // One value of the parameter is enough to look at single values: at least that of the parameter itself.
   const bool range = purpose != Purpose::operating_point;
+  const auto traced = scene.parameters.index(options.parameter);
+  if (!range && !table.has("from") && traced) options.from = scene.parameters.declared_values()[*traced];
   if (!range && !table.has("to")) options.to = options.from;
-  for (const char* key : {"from", "to"}) {
-    if (table.has(key) || (!range && key == std::string("to"))) continue;
+  for (const std::string key : {"from", "to"}) {
+    if (table.has(key) || !range) continue;
     const bool samples = scene.root.find("sampled_family") != nullptr;
-    table.fail(key, std::string("is missing; expected a number, here or as an option") +
+    table.fail(key, "is missing; expected a number, here or as --" + key +
                         (samples ? "; of a single sample, 'eigentrail spectrum' shows the eigenvalues" : ""));
   }
   table.finish();
