@@ -94,6 +94,7 @@ void print_for_people(const LociFile& loci) {
   std::printf("\n%s  %zu coordinates, %zu constraints, %zu modes, %zu points\n",
               how_to_go_on(attribute(loci, "status")).c_str(), loci.coordinates.size(),
               loci.constraints.size(), loci.modes.size(), loci.n_nodes());
+  if (const std::string data = attribute(loci, "model_data"); data != "?") std::printf("%s", data.c_str());
   if (loci.n_nodes() == 0) return;
   std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)%s\n", loci.parameter.c_str(),
               exact_text(loci.p.front()).c_str(), exact_text(loci.p.back()).c_str(),

@@ -101,6 +101,9 @@ LociTables new_tables(const std::string& path, const Scene& scene, const Model& 
   file.set_attribute("series_order", static_cast<std::int64_t>(start.order));
   if (const std::string trimmed = trimmed_list(model.description()); !trimmed.empty())
     file.set_attribute("trimmed", trimmed);
+  std::string data;
+  for (const auto& [label, text] : model.description().data) data += label + ": " + text + "\n";
+  if (!data.empty()) file.set_attribute("model_data", data);
   return {std::move(file), model, options, start.order, static_cast<std::size_t>(start.n_modes), motions};
 }
 
