@@ -1,65 +1,26 @@
-// Where memory ends, the program ends with a message: an allocation that fails does not return. Few of the
-// libraries stand it: HDF5 1.10 crashes in the call in which it happens, and again when it cleans up at the
-// exit. What was saved stays.
+// Where memory ends, the program ends with a message. What was saved stays.
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "commands.hpp"
+#include "core/ending_allocation.hpp"
 
-// The functions of glibc under their second names.
-extern "C" void* __libc_malloc(std::size_t size);                           // NOLINT
-extern "C" void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT
-extern "C" void* __libc_realloc(void* memory, std::size_t size);            // NOLINT
-extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
+namespace eigentrail {
 
-namespace eigentrail::app {
-namespace {
-
-[[noreturn]] void end_without_memory(std::size_t size) {
+void end_without_memory(std::size_t size) {
   std::array<char, 128> text{};
   const int length = std::snprintf(
       text.data(), text.size(),
       "eigentrail: not enough memory: %zu more bytes were needed; what was saved stays\n", size);
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), static_cast<std::size_t>(length));
-  _exit(numbers_failed);
+  _exit(app::numbers_failed);
 }
 
-void* existing(void* memory, std::size_t size) {
-  if (memory == nullptr && size > 0) end_without_memory(size);
-  return memory;
-}
-
-}  // namespace
-}  // namespace eigentrail::app
-
-// NOLINTBEGIN: as POSIX has them
-extern "C" {
-void* malloc(std::size_t size) {
-  return eigentrail::app::existing(__libc_malloc(size), size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  return eigentrail::app::existing(__libc_calloc(count, size), count == 0 ? 0 : size);
-}
-void* realloc(void* memory, std::size_t size) {
-  return eigentrail::app::existing(__libc_realloc(memory, size), size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  return eigentrail::app::existing(__libc_memalign(alignment, size), size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return memalign(alignment, size);
-}
-int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
-  *memory = memalign(alignment, size);
-  return 0;
-}
-}
-// NOLINTEND
+}  // namespace eigentrail
 
 namespace eigentrail::app {
 namespace {

@@ -1,7 +1,6 @@
 #include "ranges.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -24,23 +23,13 @@ nlohmann::ordered_json end_json(const RangeEnd& end) {
   return json;
 }
 
-/// A root attribute that is a number; empty if there is none.
-std::optional<double> number_in(const LociFile& loci, const std::string& name) {
-  const auto found = loci.attributes.find(name);
-  if (found == loci.attributes.end()) return std::nullopt;
-  const std::string& text = found->second;
-  double value = 0.0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  return parsed.ec == std::errc() ? std::optional(value) : std::nullopt;
-}
-
 }  // namespace
 
 std::vector<Permanence> permanence_of_modes(const LociFile& loci) {
-  const auto tolerance = number_in(loci, "tolerance");
-  const auto reference = number_in(loci, "reference");
-  if (!tolerance || !reference) return std::vector<Permanence>(loci.modes.size(), Permanence::none);
-  return eigentrail::permanence_of_modes(loci, {*tolerance, *reference});
+  // Files of early versions lack the reference.
+  if (!loci.attributes.contains("reference"))
+    return std::vector<Permanence>(loci.modes.size(), Permanence::none);
+  return eigentrail::permanence_of_modes(loci, {loci.number("tolerance"), loci.number("reference")});
 }
 
 void print_permanent(const std::vector<Permanence>& all, const std::vector<std::string>& names) {

@@ -146,6 +146,7 @@ int run_sweep(SweepArguments& arguments, Team& team) {
   if (team.leads()) {
     check_folder(arguments.output.path, list.force, numbers, runs.size());
     arguments.part ? check_part_output(list) : check_index(list.path, list.force);
+    unfinished->begin();
   }
   arguments.saving.existing = existing(list.force);
   const OptionTexts options(arguments.options.begin(), arguments.options.end());

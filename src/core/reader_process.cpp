@@ -89,7 +89,10 @@ pid_t start_reader(int socket) {
 std::string end_of(int status) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
     return "is damaged, or its disk does not answer: reading it came to no end";
-  std::string why = "code " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == reader_without_memory) return "there is not enough memory to read it";
+  if (code == reader_at_limit) return "is damaged, or needs more memory than a file of its size may take";
+  std::string why = "code " + std::to_string(code);
   if (WIFSIGNALED(status)) why = strsignal(WTERMSIG(status));
   return "is damaged: reading it ended in a crash (" + why + ")";
 }

@@ -30,6 +30,10 @@ enum class ReaderRequest : std::uint8_t {
 /// Descriptor of the socket in the reading process.
 inline constexpr int reader_socket = 0;
 
+/// Exit codes of the reading process where memory ends: that of the machine or of the user, or what a file of
+/// its size may take.
+inline constexpr int reader_without_memory = 3, reader_at_limit = 4;
+
 /// Moves all bytes with `move`, send or recv; false if the other process has gone.
 template <class Byte, class Move>
 bool move_bytes(Move move, int socket, Byte* data, std::size_t size) {

@@ -25,22 +25,15 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
   return text;
 }
 
-/// Sample `i` along `axis` of an array of three dimensions, as an array of two.
-NamedArray slice(const NamedArray& cube, std::size_t axis, std::size_t i) {
-  NamedArray result = cube;
-  result.numbers.assign(cube.numbers.begin() + static_cast<std::ptrdiff_t>(i * cube.strides[axis]),
-                        cube.numbers.end());
-  result.shape.erase(result.shape.begin() + static_cast<std::ptrdiff_t>(axis));
-  result.strides.erase(result.strides.begin() + static_cast<std::ptrdiff_t>(axis));
-  return result;
-}
-
-Matrix matrix_of(const NamedArray& array) {
-  Matrix result(array.shape[0], array.shape[1]);
-  for (std::size_t r = 0; r < array.shape[0]; ++r) {
-    for (std::size_t c = 0; c < array.shape[1]; ++c) {
+/// An array of two dimensions, or sample `i` along `axis` of one of three.
+Matrix matrix_of(const NamedArray& array, std::size_t axis = 2, std::size_t i = 0) {
+  const std::size_t row = axis == 0 ? 1 : 0, column = axis == 2 ? 1 : 2;
+  const std::size_t begin = i == 0 ? 0 : i * array.strides[axis];
+  Matrix result(array.shape[row], array.shape[column]);
+  for (std::size_t r = 0; r < array.shape[row]; ++r) {
+    for (std::size_t c = 0; c < array.shape[column]; ++c) {
       result(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
-          array.numbers[r * array.strides[0] + c * array.strides[1]];
+          array.numbers[begin + r * array.strides[row] + c * array.strides[column]];
     }
   }
   return result;
@@ -162,8 +155,7 @@ class ArrayReader {
            " samples are read");
     if (plane) return {matrix_of(array)};
     std::vector<Matrix> result;
-    for (std::size_t i = 0; i < count; ++i)
-      result.push_back(matrix_of(slice(array, samples_first ? 0 : 2, i)));
+    for (std::size_t i = 0; i < count; ++i) result.push_back(matrix_of(array, samples_first ? 0 : 2, i));
     return result;
   }
 

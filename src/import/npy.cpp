@@ -1,6 +1,7 @@
 #include "import/npy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstring>
@@ -19,6 +20,9 @@ struct ElementCode {
   char kind = 'f';
   std::size_t bytes = 8;
 };
+
+/// Of a number.
+using Bytes = std::array<char, 8>;
 
 class NpyReader {
  public:
@@ -40,10 +44,11 @@ class NpyReader {
     array.set_order(!fortran);
     array.is_text = code.kind == 'U' || code.kind == 'S';
     const std::size_t count = checked_count(array.shape, code.bytes);
+    if (!array.is_text) array.numbers.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      std::string element(data_.substr(i * code.bytes, code.bytes));
+      const std::string_view element = data_.substr(i * code.bytes, code.bytes);
       if (array.is_text) {
-        array.texts.push_back(text(element, code));
+        array.texts.push_back(text(std::string(element), code));
       } else {
         array.numbers.push_back(number(element, code));
       }
@@ -149,14 +154,17 @@ class NpyReader {
   }
 
   template <class T>
-  static double converted(const std::string& element) {
+  static double converted(const Bytes& element) {
     T value;
     std::memcpy(&value, element.data(), sizeof value);
     return static_cast<double>(value);
   }
 
-  static double number(std::string& element, const ElementCode& code) {
-    if (code.swapped) std::reverse(element.begin(), element.end());
+  static double number(std::string_view stored, const ElementCode& code) {
+    Bytes element{};
+    std::copy(stored.begin(), stored.end(), element.begin());
+    if (code.swapped)
+      std::reverse(element.begin(), element.begin() + static_cast<std::ptrdiff_t>(code.bytes));
     if (code.kind == 'f') return code.bytes == 4 ? converted<float>(element) : converted<double>(element);
     const bool is_signed = code.kind == 'i';
     switch (code.bytes) {

@@ -51,6 +51,7 @@ std::string entry_bytes(zip_t* archive, zip_uint64_t index, const std::string& w
         throw InputError(where + ": more than " + std::to_string(limits::matrix_numbers) +
                          " numbers in all arrays together");
       budget -= announced;
+      bytes.reserve(announced);
     }
     if (bytes.size() + read > announced)
       throw InputError(where + ": has more bytes than its header announces, " + std::to_string(announced));

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <new>
 
 #include "core/archive.hpp"
+#include "core/ending_allocation.hpp"
 #include "core/reader_requests.hpp"
 #include "reader/hdf5_source.hpp"
 #include "reader/matlab_source.hpp"
@@ -17,11 +17,18 @@
 namespace eigentrail::reader {
 namespace {
 
-void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
+/// How the process ends where memory does: until it has a limit of its own, the memory of the machine or of
+/// the user ends.
+int end_of_memory = reader_without_memory;
+
+/// Whether the limit is not one that was there before.
+bool limit(decltype(RLIMIT_AS) resource, rlim_t most) {
   rlimit limits{};
   getrlimit(resource, &limits);
-  limits.rlim_cur = limits.rlim_max = std::min(most, limits.rlim_max);
+  const bool is_ours = most < limits.rlim_cur;
+  limits.rlim_cur = limits.rlim_max = std::min({most, limits.rlim_cur, limits.rlim_max});
   setrlimit(resource, &limits);
+  return is_ours;
 }
 
 /// After the file is open, wherever links in it lead.
@@ -44,7 +51,7 @@ class Server {
  private:
   /// What requests may take: for the contents of usual files, and in proportion to the size of this one.
   void allow_for(std::uint64_t bytes) {
-    limit(RLIMIT_AS, (768U << 20U) + 4 * bytes);
+    if (limit(RLIMIT_AS, (768U << 20U) + 4 * bytes)) end_of_memory = reader_at_limit;
     seconds_ += static_cast<unsigned>(bytes / 10'000'000);
     alarm(seconds_);
   }
@@ -52,8 +59,6 @@ class Server {
   std::string answer_or_reason(const std::string& message) {
     try {
       return answer(message);
-    } catch (const std::bad_alloc&) {
-      return packed(false, std::string("is damaged, or needs more memory than a file of its size may take"));
     } catch (const std::exception& error) {
       return packed(false, std::string(error.what()));
     }
@@ -92,6 +97,10 @@ class Server {
 
 }  // namespace
 }  // namespace eigentrail::reader
+
+void eigentrail::end_without_memory(std::size_t /*size*/) {
+  _exit(reader::end_of_memory);
+}
 
 int main() {
   eigentrail::reader::limit(RLIMIT_CORE, 0);

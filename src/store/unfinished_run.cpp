@@ -44,15 +44,12 @@ UnfinishedRun::UnfinishedRun(const std::string& output, const SharedRun& run, Be
     : output_(output), name_(output + ".unfinished"), run_(run) {
   std::error_code error;
   if (before == Before::discard || !std::filesystem::exists(name_, error)) return;
-  read();
-  if (goes_on_ && before == Before::refuse)
-    throw InputError(name_ + ": holds what an interrupted run has computed for " + output_ +
-                     "; --resume goes on with it, --force begins anew");
+  read(before);
 }
 
 UnfinishedRun::~UnfinishedRun() = default;
 
-void UnfinishedRun::read() try {
+void UnfinishedRun::read(Before before) try {
   const std::string content = bytes_of_file(name_);
   std::string_view left = content;
   if (format.starts_with(left)) return;  // killed before it was more than begun
@@ -60,6 +57,9 @@ void UnfinishedRun::read() try {
   left.remove_prefix(format.size());
   const std::string_view first = take_record(left);
   if (first.empty()) return;
+  if (before == Before::refuse)
+    throw InputError(name_ + ": holds what an interrupted run has computed for " + output_ +
+                     "; --resume goes on with it, --force begins anew");
   std::string kernel;
   Settings settings;
   unpack(first, settings, kernel);
@@ -83,11 +83,11 @@ const std::string* UnfinishedRun::find(const std::string& kind, std::size_t numb
 }
 
 void UnfinishedRun::add(const std::string& kind, std::size_t number, const std::string& bytes) {
-  if (!file_) open();
+  if (!file_) begin();
   write(record_of(packed(std::pair(kind, static_cast<std::uint64_t>(number)), bytes)));
 }
 
-void UnfinishedRun::open() {
+void UnfinishedRun::begin() {
   file_ = std::make_unique<LockedFile>(name_, output_);
   if (ftruncate(file_->descriptor(), end_) != 0 || lseek(file_->descriptor(), 0, SEEK_END) < 0)
     throw std::system_error(errno, std::generic_category(), name_);

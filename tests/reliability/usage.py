@@ -1,6 +1,8 @@
 """Command lines that are wrong. They run in a folder with a good scene and its results, of every kind (files.MAKERS)."""
 
 import os
+import subprocess
+import time
 import unittest
 
 from good import BLADE, FAMILY, TWO_SHORT_RODS
@@ -69,6 +71,31 @@ def option(command, name, flag, value, *fragments):
 def by_parser(command, name, flag, value, *fragments):
     """An option that the parser of the command line refuses."""
     return row(f"{command[0]} with {name}", [*command, flag, value], flag, *fragments)
+
+
+def unfinished(folder):
+    """A map that was killed behind its first lines."""
+    command = [os.environ["EIGENTRAIL"], *MAP, *SECOND, "--grid", "400x20", "--quiet", "--jobs", "1"]
+    with subprocess.Popen(command, cwd=folder) as run:
+        while not (folder / "new.h5.unfinished").exists() or (folder / "new.h5.unfinished").stat().st_size < 20000:
+            time.sleep(0.005)
+        run.kill()
+
+
+RESUMED = [
+    row("map over an interrupted one", [*MAP, *SECOND], "new.h5.unfinished: holds what an interrupted run has computed for new.h5",
+        "--resume goes on with it, --force begins anew", prepare=unfinished),
+    row("resumed map with another grid", [*MAP, *SECOND, "--grid", "400x21", "--resume"], "new.h5: cannot be resumed: cells: was '20' and is '21'",
+        "begin anew with --force", prepare=unfinished),
+    row("resumed map of another scene", [*MAP, *SECOND, "--grid", "400x20", "--resume", "--set", "damping=0.3"], "new.h5: cannot be resumed: scene: line",
+        prepare=unfinished),
+    row("boundary over an interrupted map", [*BOUNDARY, *SECOND, "--resume"], "command: was 'map' and is 'boundary'", prepare=unfinished),
+    row("resumed map that is complete", ["map", "column.toml", *SECOND, "-o", "map.h5", "--resume"], "map.h5: exists already"),
+    *(row(f"{command[0]} resumed by force", [*command, "--resume", "--force"], "--force", "--resume")
+      for command in ([*MAP, *SECOND], [*BOUNDARY, *SECOND], ACCURACY, ["sweep", "scene.toml", "--vary", "drag=1,2"])),
+    row("resumption from a text", [*MAP, *SECOND, "--resume"], "new.h5.unfinished: is no file of an interrupted run; rename it",
+        prepare=write("new.h5.unfinished", "my notes, which are longer than a line of the format\n")),
+]
 
 
 def outputs(command, kind):
@@ -386,4 +413,4 @@ OTHERS = [
     row("reference in another format", ["reference", "--html"], "--html"),
 ]
 
-ROWS = GENERAL + TRACES + EXPLANATIONS + EVALUATIONS + BOUNDARIES + MAPS + STUDIES + REPORTS + OTHERS
+ROWS = GENERAL + RESUMED + TRACES + EXPLANATIONS + EVALUATIONS + BOUNDARIES + MAPS + STUDIES + REPORTS + OTHERS

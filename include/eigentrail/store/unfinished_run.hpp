@@ -39,6 +39,10 @@ class UnfinishedRun {
   /// The piece if it has been computed; null otherwise.
   const std::string* find(const std::string& kind, std::size_t number) const;
 
+  /// Makes the file, if pieces leave something behind before the first of them is finished. Throws
+  /// std::system_error.
+  void begin();
+
   /// Saves a piece; the first one makes the file. Throws std::runtime_error if it cannot be written.
   void add(const std::string& kind, std::size_t number, const std::string& bytes);
 
@@ -46,8 +50,7 @@ class UnfinishedRun {
   void end();
 
  private:
-  void read();
-  void open();
+  void read(Before before);
   void write(const std::string& record);
 
   std::string output_, name_;
