@@ -1,6 +1,7 @@
 """What users give as a scene, and keywords of the commands, as the engine wants them."""
 
 import inspect
+import math
 import os
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -87,7 +88,7 @@ def option_text(key: str, value: Any) -> str:
 
 def number(name: str, value: Any) -> float:
     """A value of a parameter that must be a number, in its unit."""
-    if not isinstance(value, Real) or not np.isfinite(value):
+    if not isinstance(value, Real) or not math.isfinite(value):
         raise SceneError(f"{name}: expected finite numbers in the unit of the parameter, found {value!r}")
     return float(value)
 

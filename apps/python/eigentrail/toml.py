@@ -48,9 +48,9 @@ def value_text(value: Any) -> str:
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, complex, np.floating, np.complexfloating)):
-        if np.imag(value) != 0.0:
+        if value.imag != 0.0:
             raise TypeError(f"a scene holds real numbers, not {value}")
-        number = float(np.real(value))
+        number = float(value.real)
         return repr(number) if math.isfinite(number) else {math.inf: "inf", -math.inf: "-inf"}.get(number, "nan")
     if hasattr(value, "__array__") or is_sparse(value):
         return value_text(_listed(value))
