@@ -103,9 +103,13 @@ class Functions(unittest.TestCase):
             called.append(omega)
             return quadratic(omega)
 
-        et.trace(et.Family(counted), omega=(0, 4))
-        self.assertLessEqual(len(called), 30)
-        self.assertEqual(len(called), len(set(called)))
+        # A smooth function alone, and with calls at the distance of what is looked for.
+        for resolution, most in ((1.0, 30), (0.02, 70), (0.01, 130)):
+            called.clear()
+            et.trace(et.Family(counted, resolution=resolution), omega=(0, 4))
+            self.assertLessEqual(len(called), most)
+            self.assertEqual(len(called), len(set(called)))
+        self.assertLessEqual(np.diff(np.sort(called)).max(), 0.04 * (1 + 1e-12))
 
     def test_sparse_matrices_lists_and_other_orders_of_memory(self):
         expected = et.trace(et.Family(quadratic), omega=(0, 4)).eigenvalue

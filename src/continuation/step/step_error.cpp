@@ -20,6 +20,8 @@ constexpr double parameter_accuracy = 1e-5;
 /// Elsewhere, the error of eigenvalues at a given p that the error of p may cause, as a share of what is
 /// accepted of them.
 constexpr double share_of_parameter = 0.1;
+/// There p goes on evenly: its slope on a step is nowhere below this share of the largest one.
+constexpr double even = 0.5;
 
 /// Truncation errors of a part of an accurate step, as a share of those of the whole step. If this share is
 /// smaller, the part is accurate even if the error of the whole step was estimated a million times too small.
@@ -45,7 +47,10 @@ constexpr double rounding_of_parameter = 8.0;
 double harmless_parameter_error(const PathProblem& problem, double tolerance, const Step& step,
                                 const HermiteInterpolant& parameter) {
   double least = INFINITY;
-  if (!(parameter.slope(0.0)[0].real() * parameter.slope(1.0)[0].real() > 0.0)) return 0.0;
+  const Eigen::Vector3d slopes(parameter.slope(0.0)[0].real(), parameter.slope(0.5)[0].real(),
+                               parameter.slope(1.0)[0].real());
+  if (slopes[0] * slopes[2] <= 0.0 || slopes.cwiseAbs().minCoeff() < even * slopes.cwiseAbs().maxCoeff())
+    return 0.0;
   for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
     const Track& track = step.left->tracks[i];
     if (track.size() > 1) return 0.0;
