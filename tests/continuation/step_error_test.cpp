@@ -187,20 +187,13 @@ TEST(JudgeError, CountsTheParameterWhereItIsNotTheCoordinate) {
   PathNode left = two.left;
   step.left = &left;
   left.path.parameters = Matrix{{0.0, 1.0, 0.0}};
-  step.right.path.parameters = Matrix{{1e-3, 1.0, 30.0}};
+  step.right.path.parameters = Matrix{{1e-3, 1.0, 0.3}};
   ASSERT_TRUE(judge_error(two.family.problem(), two.frame, tolerance, step).accepted());
   two.frame.plane = PathPlane{Vector::Zero(2), 1.0};
   const Verdict verdict = judge_error(two.family.problem(), two.frame, tolerance, step);
   EXPECT_EQ(verdict.kind, Verdict::Kind::inaccurate);
   EXPECT_EQ(verdict.track, -1);
   EXPECT_NE(verdict.reason.find("parameter"), std::string::npos);
-  // An error that changes the eigenvalues at a given p by less than their share is none; the same is one
-  // where p turns round on the step.
-  step.right.path.parameters(0, 2) = 0.003;
-  EXPECT_TRUE(judge_error(two.family.problem(), two.frame, tolerance, step).accepted());
-  step.right.path.parameters(0, 1) = -1.0;
-  EXPECT_EQ(judge_error(two.family.problem(), two.frame, tolerance, step).kind, Verdict::Kind::inaccurate);
-  step.right.path.parameters(0, 1) = 1.0;
   step.right.path.parameters(0, 2) = 0.0;
   EXPECT_TRUE(judge_error(two.family.problem(), two.frame, tolerance, step).accepted());
 }

@@ -12,16 +12,9 @@ namespace eigentrail {
 namespace {
 
 /// Accepted error of p on a step, in units of tolerance times range, if the coordinate is the distance across
-/// a plane and p turns round, or eigenvalues meet. Near a fold eigenvalues vary like the square root of the
-/// distance in p, so p must be more accurate than they are. A larger value loses accuracy near folds, a
-/// smaller one needs more steps there.
+/// a plane. Near a fold eigenvalues vary like the square root of the distance in p, so p must be more
+/// accurate than they are. A larger value loses accuracy near folds, a smaller one needs more steps there.
 constexpr double parameter_accuracy = 1e-5;
-
-/// Elsewhere, the error of eigenvalues at a given p that the error of p may cause, as a share of what is
-/// accepted of them.
-constexpr double share_of_parameter = 0.1;
-/// There p goes on evenly: its slope on a step is nowhere below this share of the largest one.
-constexpr double even = 0.5;
 
 /// Truncation errors of a part of an accurate step, as a share of those of the whole step. If this share is
 /// smaller, the part is accurate even if the error of the whole step was estimated a million times too small.
@@ -42,41 +35,15 @@ constexpr double beside_meeting = 0.1;
 /// the sums of its interpolant.
 constexpr double rounding_of_parameter = 8.0;
 
-/// The error of p that changes the eigenvalues at a given p by no more than their share of the accepted
-/// error: |s| |p'| / |s'|, the least on the step. Zero where eigenvalues meet or p turns round.
-double harmless_parameter_error(const PathProblem& problem, double tolerance, const Step& step,
-                                const HermiteInterpolant& parameter) {
-  double least = INFINITY;
-  const Eigen::Vector3d slopes(parameter.slope(0.0)[0].real(), parameter.slope(0.5)[0].real(),
-                               parameter.slope(1.0)[0].real());
-  if (slopes[0] * slopes[2] <= 0.0 || slopes.cwiseAbs().minCoeff() < even * slopes.cwiseAbs().maxCoeff())
-    return 0.0;
-  for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
-    const Track& track = step.left->tracks[i];
-    if (track.size() > 1) return 0.0;
-    const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
-    for (const double t : {0.0, 0.5, 1.0}) {
-      const double size = std::max(std::abs(dense(t)[0]), problem.reference(track.pair.chart));
-      const double change = std::abs(dense.slope(t)[0]);
-      if (change > 0.0) least = std::min(least, size * std::abs(parameter.slope(t)[0]) / change);
-    }
-  }
-  return share_of_parameter * accepted_share * tolerance * least;
-}
-
 /// Estimated error of p on a step / accepted error, which is at least that by rounding.
-double parameter_error(const PathProblem& problem, const PathFrame& frame, double tolerance,
-                       const Step& step) {
+double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
   const auto row = [&](const PathNode& node) {
     return ComplexMatrix(node.path.parameters.row(frame.range.traced).cast<Complex>());
   };
   const double rounding = rounding_of_parameter * std::numeric_limits<double>::epsilon() *
                           std::max(std::abs(step.left->p), std::abs(step.right.p));
-  const HermiteInterpolant parameter(step.h, row(*step.left), row(step.right));
-  const double range = frame.range.length();
-  const double harmless = std::min(harmless_parameter_error(problem, tolerance, step, parameter), range);
-  return parameter.error_without_last()[0] /
-         std::max({parameter_accuracy * tolerance * range, rounding, harmless});
+  return HermiteInterpolant(step.h, row(*step.left), row(step.right)).error_without_last()[0] /
+         std::max(parameter_accuracy * tolerance * frame.range.length(), rounding);
 }
 
 /// Largest of `root error(t) / accepted error(t)` at places of a step where errors are largest, for errors of
@@ -182,7 +149,7 @@ Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double t
     worst.track = static_cast<int>(i);
   }
   if (frame.plane) {
-    const double error = parameter_error(problem, frame, tolerance, step);
+    const double error = parameter_error(frame, tolerance, step);
     if (error > worst.error)
       worst = {Verdict::Kind::inaccurate, -1, error, "the parameter along the path is inaccurate"};
   }
