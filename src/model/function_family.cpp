@@ -339,6 +339,7 @@ std::vector<double> FunctionFamily::landings(int) const {
     places.push_back(piece.from);
     places.push_back(piece.to);
   }
+  std::sort(places.begin(), places.end());
   return places;
 }
 

@@ -61,8 +61,8 @@ Matrix curved(const Matrix& curvatures, const Matrix& dependences) {
   return dependences * svd.matrixV().leftCols(count);
 }
 
-}  // namespace
-
+/// Names of the constraints whose reactions are not unique and change the stiffness of the allowed motions,
+/// in the order of the model.
 std::vector<std::string> undetermined_reactions(const Model& model, const Vector& parameters,
                                                 const Equilibrium& at, EvaluationCounts& counts) {
   const ConstraintFactorization& constraints = at.kkt.constraints();
@@ -85,6 +85,8 @@ std::vector<std::string> undetermined_reactions(const Model& model, const Vector
   }
   return names;
 }
+
+}  // namespace
 
 std::string undetermined_stiffness(const Model& model, const Vector& parameters, const Equilibrium& at,
                                    EvaluationCounts& counts) {

@@ -16,13 +16,9 @@
 
 namespace eigentrail {
 
-/// Names of the constraints whose reactions are not unique and change the stiffness of the allowed motions,
-/// in the order of the model; none if the stiffness is unique. Three evaluations of the model if rows of A
-/// are dependent, more if the stiffness is not unique; none otherwise.
-std::vector<std::string> undetermined_reactions(const Model& model, const Vector& parameters,
-                                                const Equilibrium& at, EvaluationCounts& counts);
-
-/// The sentence that says so to a user; empty if the stiffness is unique, or the scene shares the reactions.
+/// Which constraints have reactions that are not unique and change the stiffness of the allowed motions, in a
+/// sentence for the user; empty if the stiffness is unique, or the scene shares the reactions. Three
+/// evaluations of the model if rows of A are dependent, more if the stiffness is not unique; none otherwise.
 std::string undetermined_stiffness(const Model& model, const Vector& parameters, const Equilibrium& at,
                                    EvaluationCounts& counts);
 

@@ -4,8 +4,8 @@
 // The function may be expensive. It is called only when the model is made: the matrices are interpolated by
 // polynomials in pieces, through Chebyshev points (Trefethen, Approximation Theory and Approximation
 // Practice, SIAM 2013, Sects. 2, 8), and the trace works with these. Where the matrices are smooth, each
-// further call gains digits: about 20 to 80 calls are enough for most ranges. The
-// others, a hundred by default, look for what is narrower than those would show.
+// further call gains digits: about 20 to 80 calls are enough for most ranges. The others, a hundred by
+// default, look for what is narrower than those would show.
 #pragma once
 
 #include <functional>
