@@ -75,10 +75,12 @@ int run_accuracy(AccuracyArguments& arguments, Team& team) {
       prepare_trace(given_scene(arguments), {arguments.trace_options.begin(), arguments.trace_options.end()});
   warn_of_unused(setup.scene, *setup.model);
   project_if_large(setup.model, setup.options);
+  const SharedRun run = shared_run(setup, arguments);
+  if (arguments.writes && has_ended(output, team, run)) return done;
   std::unique_ptr<UnfinishedRun> unfinished;
   std::unique_ptr<Workers> workers = team.workers(1);
   if (arguments.writes) {
-    unfinished = unfinished_run(output, shared_run(setup, arguments), {}, team);
+    unfinished = unfinished_run(output, run, {}, team);
     check_output(output.path, output.force, {accuracy_format, "work-precision study"});
     check_can_create(output.path);
     workers = std::make_unique<SavingWorkers>(std::move(workers), *unfinished);
@@ -96,7 +98,7 @@ int run_accuracy(AccuracyArguments& arguments, Team& team) {
     }
     if (!output.quiet) print_study(setup, study);
     if (!arguments.writes) return done;
-    write_durably(output.path, {study_file(setup, options, study)}, existing(output.force));
+    write_durably(output.path, {study_file(setup, options, study), run_mark(run)}, existing(output.force));
     if (!output.quiet) std::printf("wrote %s\n", output.path.c_str());
     return done;
   };

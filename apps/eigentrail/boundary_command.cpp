@@ -117,7 +117,7 @@ void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
 }
 
 /// Follows the boundaries from what was found on all lines, writes them and prints a summary.
-int finish_boundary(const BoundarySetup& setup, const std::vector<std::string>& scans,
+int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const std::vector<std::string>& scans,
                     const OutputChoice& output, Team& team, Workers& workers, double seconds) {
   ProgressBar progress(output.quiet);
   BoundaryResult result =
@@ -132,7 +132,7 @@ int finish_boundary(const BoundarySetup& setup, const std::vector<std::string>& 
         ": no line of the window could be begun; choose another range, or another starting position; " +
         result.message);
   }
-  write_durably(output.path, {boundary_file(setup, result)}, existing(output.force));
+  write_durably(output.path, {boundary_file(setup, result), run_mark(run)}, existing(output.force));
   if (!output.quiet) {
     print_summary(setup, result);
     std::printf("wrote %s\n", output.path.c_str());
@@ -177,6 +177,7 @@ int run_boundary(BoundaryArguments& arguments, Team& team) {
   warn_of_unused(setup.scene, *setup.model);
   check_boundary_names(setup.scene, setup.options);
   const SharedRun run = shared_run(setup, arguments.request);
+  if (has_ended(output, team, run, arguments.part)) return done;
   const auto unfinished = unfinished_run(output, run, arguments.part, team);
   if (team.leads()) arguments.part ? check_part_output(output) : check_boundary_output(output);
   SavingWorkers workers(team.workers(0), *unfinished);
@@ -190,7 +191,7 @@ int run_boundary(BoundaryArguments& arguments, Team& team) {
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto finish = [&]() -> int {
-    if (!arguments.part) return finish_boundary(setup, scans, output, team, workers, seconds);
+    if (!arguments.part) return finish_boundary(setup, run, scans, output, team, workers, seconds);
     return team.leads() ? write_part(output, run, *arguments.part, std::move(scans)) : done;
   };
   return team.leads() ? end_run(*unfinished, finish) : finish();
@@ -219,7 +220,7 @@ int merge_boundary(const SharedRun& run, const std::vector<std::string>& pieces,
   const BoundarySetup setup = prepare_boundary(std::move(scene), request);
   if (team.leads()) check_boundary_output(output);
   const auto workers = team.workers(0);
-  return finish_boundary(setup, pieces, output, team, *workers, 0.0);
+  return finish_boundary(setup, run, pieces, output, team, *workers, 0.0);
 }
 
 void add_boundary(CLI::App& program, int& exit_code) {

@@ -120,8 +120,8 @@ std::string failure(const StabilityMap& map) {
 }
 
 /// Writes the map of lines that have all been computed, and prints its summary.
-int finish_map(const MapSetup& setup, const std::vector<std::string>& lines, const OutputChoice& output,
-               double seconds) {
+int finish_map(const MapSetup& setup, const SharedRun& run, const std::vector<std::string>& lines,
+               const OutputChoice& output, double seconds) {
   const StabilityMap map = map_of(setup, lines);
   const MapTotals totals = total(map);
   if (totals.unknown == totals.cells) {
@@ -129,7 +129,7 @@ int finish_map(const MapSetup& setup, const std::vector<std::string>& lines, con
                  printable(failure(map)).c_str());
     return numbers_failed;
   }
-  write_durably(output.path, {map_file(setup, map)}, existing(output.force));
+  write_durably(output.path, {map_file(setup, map), run_mark(run)}, existing(output.force));
   if (!output.quiet) {
     print_summary(setup, map, seconds);
     std::printf("wrote %s\n", output.path.c_str());
@@ -167,6 +167,7 @@ int run_map(MapArguments& arguments, Team& team) {
   warn_of_unused(setup.trace.scene, *setup.trace.model);
   check_map_names(setup);
   const SharedRun run = shared_run(setup, arguments);
+  if (has_ended(arguments.output, team, run, arguments.part)) return done;
   const auto unfinished = unfinished_run(arguments.output, run, arguments.part, team);
   if (team.leads()) arguments.part ? check_part_output(arguments.output) : check_map_output(arguments.output);
   SavingWorkers workers(team.workers(setup.options.jobs), *unfinished);
@@ -183,7 +184,7 @@ int run_map(MapArguments& arguments, Team& team) {
   if (!team.leads()) return done;
   return end_run(*unfinished, [&] {
     if (arguments.part) return write_part(arguments.output, run, *arguments.part, std::move(lines));
-    return finish_map(setup, lines, arguments.output, seconds);
+    return finish_map(setup, run, lines, arguments.output, seconds);
   });
 }
 
@@ -206,7 +207,7 @@ int merge_map(const SharedRun& run, const std::vector<std::string>& pieces, cons
   const MapSetup setup =
       read_map_setup(parse_scene(run.setting("scene").value_or(""), run.scene_path), overrides, options);
   check_map_output(output);
-  return finish_map(setup, pieces, output, std::nan(""));
+  return finish_map(setup, run, pieces, output, std::nan(""));
 }
 
 void add_map(CLI::App& program, int& exit_code) {

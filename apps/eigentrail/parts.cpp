@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "check_output.hpp"
 #include "commands.hpp"
@@ -36,6 +37,25 @@ std::unique_ptr<UnfinishedRun> unfinished_run(OutputChoice& output, SharedRun ru
     warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
          "); the last digits differ from those of a run on one machine");
   return unfinished;
+}
+
+bool has_ended(const OutputChoice& output, const Team& team, const std::function<bool()>& complete) {
+  if (!output.resume || !std::filesystem::exists(output.path) || is_unfinished(output.path) || !complete())
+    return false;
+  if (team.leads() && !output.quiet)
+    std::printf("%s: the run has come to its end already\n", output.path.c_str());
+  return true;
+}
+
+bool has_ended(const OutputChoice& output, const Team& team, const SharedRun& run,
+               const std::optional<Part>& part) {
+  return has_ended(output, team, [&] {
+    if (part)
+      require_part(output.path, run, *part);
+    else
+      require_run(output.path, run);
+    return true;
+  });
 }
 
 int end_run(UnfinishedRun& unfinished, const std::function<int()>& write) try {

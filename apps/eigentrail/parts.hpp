@@ -32,6 +32,13 @@ void add_output_flags(CLI::App& command, OutputChoice& output,
 std::unique_ptr<UnfinishedRun> unfinished_run(OutputChoice& output, SharedRun run,
                                               const std::optional<Part>& part, const Team& team);
 
+/// Whether --resume has nothing to do: the output, or this part of it, is complete, which is then said.
+/// Throws InputError if it is of another run.
+bool has_ended(const OutputChoice& output, const Team& team, const SharedRun& run,
+               const std::optional<Part>& part = {});
+/// The same for an output that is not one file; `complete` is called where there is one.
+bool has_ended(const OutputChoice& output, const Team& team, const std::function<bool()>& complete);
+
 /// Adds --part to a command.
 void add_part(CLI::App& command, std::optional<Part>& part);
 

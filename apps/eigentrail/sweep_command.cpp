@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
 
 #include "check_output.hpp"
@@ -94,6 +95,21 @@ void check_folder(const std::string& folder, bool force, const std::vector<std::
                  {"eigentrail-loci", "loci file"});
 }
 
+/// Whether there is an index with a line for each run, and loci files of these runs. Throws InputError if
+/// they are of other input.
+bool has_index(const std::string& index, const std::function<std::string(std::size_t)>& path,
+               const Scene& scene, const Combinations& runs, const OptionTexts& options) {
+  std::ifstream file(index, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  if (!text.starts_with(index_header(runs.varied())) || lines != runs.size() + 1) return false;
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    if (std::filesystem::exists(path(run)))
+      require_run_of_sweep(scene, runs.settings(run), options, path(run));
+  }
+  return true;
+}
+
 /// Writes the index and says how many runs there are.
 int finish_sweep(const std::string& header, const std::vector<std::string>& lines,
                  const OutputChoice& output) {
@@ -142,6 +158,12 @@ int run_sweep(SweepArguments& arguments, Team& team) {
   index.path = (folder / "index.csv").string();
   OutputChoice& list = arguments.part ? part_file : index;
   const SharedRun run = shared_run(scene, arguments, runs);
+  const OptionTexts options(arguments.options.begin(), arguments.options.end());
+  const auto path = [&](std::size_t number) { return (folder / run_name(number, runs.size())).string(); };
+  const bool ended = arguments.part ? has_ended(list, team, run, arguments.part) : has_ended(list, team, [&] {
+    return has_index(list.path, path, scene, runs, options);
+  });
+  if (ended) return done;
   const auto unfinished = unfinished_run(list, run, arguments.part, team);
   if (team.leads()) {
     check_folder(arguments.output.path, list.force, numbers, runs.size());
@@ -149,18 +171,12 @@ int run_sweep(SweepArguments& arguments, Team& team) {
     unfinished->begin();
   }
   arguments.saving.existing = existing(list.force);
-  const OptionTexts options(arguments.options.begin(), arguments.options.end());
   SavingWorkers workers(team.workers(arguments.jobs), *unfinished);
   ProgressBar progress(arguments.output.quiet);
   const auto trace_one = [&](std::size_t number) {
-    const std::vector<double> values = runs.values(number);
-    std::vector<std::string> settings;
-    for (std::size_t k = 0; k < values.size(); ++k)
-      settings.push_back(runs.varied()[k].name + "=" + exact_text(values[k]));
-    const std::string path = (folder / run_name(number, runs.size())).string();
-    SweepRow row = run_of_sweep(scene, settings, options, path, arguments.saving);
+    SweepRow row = run_of_sweep(scene, runs.settings(number), options, path(number), arguments.saving);
     row.run = number + 1;
-    row.values = values;
+    row.values = runs.values(number);
     return std::to_string(row.exit_code) + index_line(row);
   };
   std::vector<std::string> lines = workers.compute(

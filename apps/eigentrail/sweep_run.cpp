@@ -10,6 +10,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/scene/settings.hpp"
+#include "eigentrail/store/saved_trace.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -33,6 +34,12 @@ std::optional<double> first_of(EventKind kind, const std::vector<Event>& events,
     if (event.kind == kind && (!first || std::abs(event.p - from) < std::abs(*first - from))) first = event.p;
   }
   return first;
+}
+
+TraceSetup setup_of(const Scene& scene, const std::vector<std::string>& settings,
+                    const OptionTexts& options) {
+  const std::scoped_lock turn(turn_at_files());
+  return prepare_trace(with_settings(scene, settings).scene, options);
 }
 
 /// A trace whose points go to a loci file.
@@ -111,6 +118,14 @@ std::vector<double> Combinations::values(std::size_t number) const {
   return values;
 }
 
+std::vector<std::string> Combinations::settings(std::size_t number) const {
+  const std::vector<double> of_run = values(number);
+  std::vector<std::string> settings;
+  for (std::size_t k = 0; k < of_run.size(); ++k)
+    settings.push_back(varied_[k].name + "=" + exact_text(of_run[k]));
+  return settings;
+}
+
 std::optional<LeastDamping> least_damping(const RecordedPath& path) {
   std::optional<LeastDamping> least;
   for (std::size_t step = 0; step < path.steps.size(); ++step) {
@@ -144,16 +159,18 @@ std::string index_line(const SweepRow& row) {
          csv_cell(printable(row.reason)) + "\n";
 }
 
+void require_run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
+                          const OptionTexts& options, const std::string& path) {
+  const TraceSetup setup = setup_of(scene, settings, options);
+  (void)read_saved_trace(path, setup.scene, setup.options);
+}
+
 SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
                       const OptionTexts& options, const std::string& path, const SaveOptions& saving) {
   SweepRow row;
   row.reached = std::nan("");
   try {
-    TraceSetup setup;
-    {
-      const std::scoped_lock turn(turn_at_files());
-      setup = prepare_trace(with_settings(scene, settings).scene, options);
-    }
+    TraceSetup setup = setup_of(scene, settings, options);
     project_if_large(setup.model, setup.options);
     check_parameter_name(setup.scene, setup.options.parameter);
     RunOfSweep run(std::move(setup), path, saving);

@@ -28,6 +28,9 @@ class Combinations {
   std::vector<double> values(std::size_t number) const;
   const std::vector<Varied>& varied() const { return varied_; }
 
+  /// NAME=VALUE of each parameter.
+  std::vector<std::string> settings(std::size_t number) const;
+
  private:
   std::vector<Varied> varied_;
 };
@@ -55,6 +58,10 @@ struct SweepRow {
 /// First line and lines of the index, with their line ends.
 std::string index_header(const std::vector<Varied>& varied);
 std::string index_line(const SweepRow& row);
+
+/// Throws InputError if `path` is not the loci file of this run.
+void require_run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
+                          const OptionTexts& options, const std::string& path);
 
 /// Traces `scene` with `settings` (NAME=VALUE) and writes the loci file `path`. An error ends up in the row.
 /// May be called by several threads at once.

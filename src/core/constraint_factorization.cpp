@@ -7,7 +7,7 @@ namespace eigentrail {
 ConstraintFactorization::ConstraintFactorization(const SystemMatrix& A) {
   if (A.is_sparse() && A.rows() > 0) sparse_ = SparseConstraints::factor(A.sparse());
   if (!sparse_) {
-    factor_dense(A);
+    factor_dense(A.dense());
     return;
   }
   rank_ = A.rows();

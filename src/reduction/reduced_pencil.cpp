@@ -46,6 +46,15 @@ bool is_sparse(const SystemSeries& B) {
   return B[0].is_sparse();
 }
 
+MatrixSeries dense_terms(const MatrixSeries& B, std::size_t count) {
+  return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+MatrixSeries dense_terms(const SystemSeries& B, std::size_t count) {
+  MatrixSeries result;
+  for (std::size_t i = 0; i < count; ++i) result.push_back(B[i].dense());
+  return result;
+}
+
 /// The first `count` coefficients of B(h) T(h).
 template <class Coefficient>
 MatrixSeries times_basis(const std::vector<Coefficient>& B, const MatrixSeries& T, std::size_t count) {
@@ -59,9 +68,7 @@ MatrixSeries times_basis(const std::vector<Coefficient>& B, const MatrixSeries& 
 template <class Coefficient>
 MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficient>& B, int order) {
   const MatrixSeries& T = basis.T;
-  if (basis.is_identity) {
-    return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(last_order(order, B.size(), 1)) + 1};
-  }
+  if (basis.is_identity) return dense_terms(B, last_order(order, B.size(), 1) + 1);
   if (auto sparse = sparse_congruence(T, B, T, order)) return *sparse;
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;

@@ -58,7 +58,7 @@ class BorderedKkt {
   /// (A^T)+ (r - K dx - F du).
   Vector multipliers(const Vector& r, const Vector& dx, const Vector& du) const;
 
-  Matrix K_;
+  SystemMatrix K_;
   ConstraintFactorization constraints_;
   KktBorder border_;
   Matrix follow_;     ///< n x q: -A+ G

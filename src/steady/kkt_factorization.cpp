@@ -36,7 +36,7 @@ KktFactorization::KktFactorization(const SystemMatrix& K, const SystemMatrix& A)
     reciprocal_condition_ = 0.0;
     return;
   }
-  K_ = K;
+  K_ = K.dense();
   factor_tangent();
 }
 

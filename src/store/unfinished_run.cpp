@@ -27,6 +27,15 @@ std::string record_of(const std::string& bytes) {
   return std::string(reinterpret_cast<const char*>(head.data()), sizeof head) + bytes;
 }
 
+std::string unfinished_name(const std::string& output) {
+  return output + ".unfinished";
+}
+
+[[noreturn]] void refuse_other_run(const std::string& output) {
+  throw InputError(output +
+                   ": cannot be resumed: it is of other input; restore that, or begin anew with --force");
+}
+
 /// Takes the first record from `left`; empty if none is whole.
 std::string_view take_record(std::string_view& left) {
   RecordHead head{};
@@ -40,11 +49,28 @@ std::string_view take_record(std::string_view& left) {
 
 }  // namespace
 
-UnfinishedRun::UnfinishedRun(const std::string& output, const SharedRun& run, Before before)
-    : output_(output), name_(output + ".unfinished"), run_(run) {
+std::string run_mark(const SharedRun& run) {
+  return "eigentrail-run " + std::to_string(fingerprint(packed(run.all_settings())));
+}
+
+void require_run(const std::string& output, const SharedRun& run) {
+  if (!bytes_of_file(output).ends_with(run_mark(run))) refuse_other_run(output);
+}
+
+void require_part(const std::string& output, const SharedRun& run, const Part& part) {
+  const PartFile file = read_part_file(output);
+  require_same_run(output, file.run.all_settings(), run.all_settings());
+  if (file.part.number != part.number || file.part.count != part.count) refuse_other_run(output);
+}
+
+bool is_unfinished(const std::string& output) {
   std::error_code error;
-  if (before == Before::discard || !std::filesystem::exists(name_, error)) return;
-  read(before);
+  return std::filesystem::exists(unfinished_name(output), error);
+}
+
+UnfinishedRun::UnfinishedRun(const std::string& output, const SharedRun& run, Before before)
+    : output_(output), name_(unfinished_name(output)), run_(run) {
+  if (before != Before::discard && is_unfinished(output)) read(before);
 }
 
 UnfinishedRun::~UnfinishedRun() = default;

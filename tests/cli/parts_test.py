@@ -114,6 +114,21 @@ class Parts(ProgramTest):
         self.run_well("merge", *names, "-o", "merged.h5", "--quiet")
         self.assertEqual((self.folder / "merged.h5").read_bytes(), (self.folder / "whole.h5").read_bytes())
 
+    def test_complete_runs_are_left_alone(self):
+        sweep = ("sweep", "scene.toml", "--vary", "drag=1,2")
+        accuracy = ("accuracy", "scene.toml", "--tolerances", "1e-4", "--orders", "2", "--grids", "none", "--samples", "2", "--repeat", "1")
+        self.write("curves.toml", CURVES)
+        boundary = ("boundary", "curves.toml", *BOUNDARY[2:], "--lines", "3")
+        for command, output in ((MAP, "map.h5"), ((*MAP, "--part", "2/2"), "part.h5"), (boundary, "curves.h5"), (accuracy, "study.h5"),
+                                (sweep, "swept"), ((*sweep, "--part", "1/2"), "swept_parts")):
+            with self.subTest(output):
+                self.run_well(*command, "-o", output, "--quiet")
+                before = self.contents()
+                self.assertRegex(self.run_well(*command, "-o", output, "--resume"), r"^\S+: the run has come to its end already\n$")
+                self.assert_refused(self.run_program(*command, "-o", output, "--resume", "--set", "length=3"
+                                                     if command is not boundary else "q=0.3"), ["cannot be resumed: "])
+                self.assertEqual(self.contents(), before)
+
     def test_merged_map_without_a_known_cell_is_not_written(self):
         """There is no equilibrium with p > 1."""
         self.write("scene.toml", edited(PUSHED_PENDULUM, "p = 0.0", "p = 0.0\nr = 0.1")

@@ -48,7 +48,7 @@ EigenPairs qz_pairs(const Matrix& M, const Matrix& C, const Matrix& K) {
 GridSpectra::Point spectrum_at(const PathPoint& point) {
   const EigenPairs pairs = qz_pairs(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   GridSpectra::Point result{point.p, pairs.s, point.basis.T[0].cast<Complex>() * pairs.z,
-                            point.equilibrium.linearization.M[0]};
+                            point.equilibrium.linearization.M[0].dense()};
   for (auto column : result.vectors.colwise()) {
     const double length = column.norm();
     if (length > 0.0) column /= length;

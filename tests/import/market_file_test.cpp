@@ -9,11 +9,11 @@ namespace eigentrail {
 namespace {
 
 Matrix read(const std::string& text) {
-  return parse_market_file("%%MatrixMarket matrix " + text, "a.mtx");
+  return parse_market_file("%%MatrixMarket matrix " + text, "a.mtx").dense();
 }
 
 Matrix read_whole(const std::string& text, const std::string& path) {
-  return parse_market_file(text, path);
+  return parse_market_file(text, path).dense();
 }
 
 std::string message(const std::string& text) {

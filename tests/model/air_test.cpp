@@ -59,7 +59,7 @@ TEST(Strips, ThatDoNotPitchHaveTheForcesOfABladeElement) {
                 "0.02\nlift_slope = 5.5\npitch = 0.1\n"));
   ASSERT_GT(blade.force().norm(), 1.0);
   EXPECT_LT((air.force() - blade.force()).norm(), 1e-13 * blade.force().norm());
-  const Matrix K = blade.linear().K[0];
+  const Matrix K = blade.linear().K[0].dense();
   EXPECT_LT((air.linear().K[0].dense() - K).norm(), 1e-13 * K.norm());
 }
 

@@ -66,7 +66,7 @@ TEST(SparseAssembly, OfTwoBladesHasThatOfOneTwice) {
     for (std::size_t k = 0; k < small.size(); ++k) {
       ASSERT_TRUE(large[k].is_sparse());
       ASSERT_FALSE(small[k].is_sparse());
-      const Matrix expected = small[k], found = large[k];
+      const Matrix expected = small[k].dense(), found = large[k].dense();
       ASSERT_GT(expected.norm(), 0.0);
       const double rounding = 1e-14 * expected.norm();
       EXPECT_LT((found(first, first) - expected).norm(), rounding);

@@ -30,9 +30,9 @@ class DaeForm : public testing::TestWithParam<Case> {
     m = lin.A[0].rows();
     // The constraints are scaled to the stiffness, which changes neither form's finite spectrum.
     A = lin.A[0].dense() * (lin.K[0].norm() / lin.A[0].norm());
-    M = lin.M[0];
-    C = lin.C[0];
-    K = lin.K[0];
+    M = lin.M[0].dense();
+    C = lin.C[0].dense();
+    K = lin.K[0].dense();
     for (const InvariantPair& pair : point.pairs) {
       const Complex s = pair.eigenvalue();
       projected.push_back(s);

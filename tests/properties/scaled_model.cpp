@@ -63,9 +63,9 @@ EvaluationFault ScaledModel::residual(const Path& path, int order, SteadyResidua
 EvaluationFault ScaledModel::linearize(const Path& path, int order, Linearization& result,
                                        EvaluationCounts& counts) const {
   auto fault = model_.linearize(in_old_units(path), order, result, counts);
-  for (SystemMatrix& M : result.M) M = scaled(M, of_mass_);
-  for (SystemMatrix& C : result.C) C = scaled(C, of_damping_);
-  for (SystemMatrix& K : result.K) K = scaled(K, of_stiffness_);
+  for (SystemMatrix& M : result.M) M = scaled(M.dense(), of_mass_);
+  for (SystemMatrix& C : result.C) C = scaled(C.dense(), of_damping_);
+  for (SystemMatrix& K : result.K) K = scaled(K.dense(), of_stiffness_);
   for (SystemMatrix& A : result.A) A = Matrix(A.dense() * lengths_.asDiagonal());
   return fault;
 }

@@ -46,7 +46,7 @@ struct Chain {
     }
   }
   Matrix at(double h) const {
-    Matrix value = dense.back();
+    Matrix value = dense.back().dense();
     for (std::size_t k = dense.size() - 1; k-- > 0;) value = value * h + dense[k].dense();
     return value;
   }

@@ -118,5 +118,16 @@ TEST_F(UnfinishedRuns, FilesOfOthersAreKept) {
   EXPECT_EQ(content(), "my notes\n");
 }
 
+TEST_F(UnfinishedRuns, HaveEndedWhereTheOutputIsTheirs) {
+  std::ofstream(output(), std::ios::binary) << "data" << run_mark(run);
+  EXPECT_FALSE(is_unfinished(output()));
+  require_run(output(), run);
+  SharedRun other = run;
+  other.settings[2].second = "4";
+  EXPECT_THROW(require_run(output(), other), InputError);
+  std::ofstream(output(), std::ios::binary) << "data of an older version";
+  EXPECT_THROW(require_run(output(), run), InputError);
+}
+
 }  // namespace
 }  // namespace eigentrail::test

@@ -12,7 +12,7 @@
 
 namespace eigentrail {
 
-/// A real matrix in dense or sparse storage.
+/// A real matrix in dense or sparse storage. It becomes a dense one only by dense(): that of a large model may not fit into memory.
 template <class Real>
 class BasicSystemMatrix {
  public:
@@ -33,7 +33,6 @@ class BasicSystemMatrix {
   Dense dense() const {
     return visit([](const auto& values) { return Dense(values); });
   }
-  operator Dense() const { return dense(); }  // NOLINT: lets small models use it as a dense matrix
 
   Eigen::Index rows() const {
     return visit([](const auto& values) { return values.rows(); });

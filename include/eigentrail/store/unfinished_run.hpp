@@ -19,6 +19,17 @@ namespace eigentrail {
 
 class LockedFile;
 
+/// What a command writes behind the data of its output, where readers of HDF5 do not look: by it --resume
+/// knows what the output is of.
+std::string run_mark(const SharedRun& run);
+
+/// They throw InputError if a file is not the output of the run, or not this part of it.
+void require_run(const std::string& output, const SharedRun& run);
+void require_part(const std::string& output, const SharedRun& run, const Part& part);
+
+/// Whether a run has left something for --resume.
+bool is_unfinished(const std::string& output);
+
 /// What becomes of the pieces of a run that was interrupted.
 enum class Before { refuse, resume, discard };
 
