@@ -79,7 +79,7 @@ bool land_on_end(StepSolver& solver, Step& step) {
     rules.begin = 0.0;
     rules.end = beyond_step * step.h;
     if (walk(guess, rules, look).end != WalkEnd::settled) return false;
-    step.right.p = end;
+    step.right.p = step.right.path.parameters(range.traced, 0) = end;
     return true;
   }
   return true;
