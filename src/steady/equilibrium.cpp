@@ -174,9 +174,8 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
     return [&, how](Vector& v) { return solve_error_oriented(problem, n, how, v); };
   };
   const auto load_steps = [&](Vector& v) { return solve_in_load_steps(problem, n, {}, v); };
-  if (!options.relax)
-    return large ? error_oriented({.least_damping = 1.0})(u) : kinsol(options.max_iterations)(u);
   const int first = std::min(patience, options.max_iterations);
+  if (!options.relax) return large ? error_oriented({.least_damping = 1.0})(u) : kinsol(first)(u);
   std::vector<std::function<NonlinearResult(Vector&)>> turns;
   if (!large) turns.push_back(kinsol(first));
   turns.push_back(error_oriented({.max_iterations = first}));
