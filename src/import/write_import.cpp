@@ -216,21 +216,18 @@ std::string write_import(const Imported& imported, const std::string& folder, co
   namespace fs = std::filesystem;
   const fs::path scene = fs::path(folder) / (name + ".toml");
   const fs::path data = fs::path(folder) / (name + (imported.stations ? ".csv" : ".h5"));
-  std::error_code error;
-  for (const fs::path& path : {scene, data}) {
-    if (!force && fs::exists(path, error))
-      throw InputError(path.string() + ": exists already; --force replaces it, --name gives another name");
-  }
+  const Existing existing =
+      existing_pair(data.string(), scene.string(), force, "--force replaces it, --name gives another name");
   if (imported.family) {
     check(*imported.family);
   } else if (!imported.stations) {
     check(imported.samples);
   }
+  std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
   const std::string bytes = data_file(imported), text = scene_text(imported, data.filename().string());
-  write_durably({{data.string(), {bytes}}, {scene.string(), {text}}},
-                force ? Existing::replace : Existing::keep);
+  write_durably({{data.string(), {bytes}}, {scene.string(), {text}}}, existing);
   return scene.string();
 }
 

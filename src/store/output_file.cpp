@@ -57,11 +57,15 @@ std::string target_of(const std::string& path) {
   return error ? path : target.string();
 }
 
+std::string partial_name(const std::string& path) {
+  return path + ".partial";
+}
+
 /// The new version of a file, under another name until it takes its place.
 class PartialFile {
  public:
   explicit PartialFile(const std::string& path)
-      : path_(path), target_(target_of(path)), name_(target_ + ".partial"), file_(name_, path) {}
+      : path_(path), target_(target_of(path)), name_(partial_name(target_)), file_(name_, path) {}
   ~PartialFile() {
     if (is_there_) std::remove(name_.c_str());
   }
@@ -130,6 +134,21 @@ void check_can_create(const std::string& path) {
   } catch (const std::system_error& error) {
     throw InputError(path + ": cannot be created: " + error.code().message());
   }
+}
+
+Existing existing_pair(const std::string& first, const std::string& second, bool force,
+                       const std::string& advice) {
+  const auto exists = [](const std::string& path) {
+    std::error_code error;
+    return std::filesystem::exists(path, error);
+  };
+  const bool half =
+      exists(first) && !exists(partial_name(first)) && !exists(second) && exists(partial_name(second));
+  if (force || half) return Existing::replace;
+  for (const std::string& path : {first, second}) {
+    if (exists(path)) throw InputError(path + ": exists already; " + advice);
+  }
+  return Existing::keep;
 }
 
 void write_durably(const std::vector<NewFile>& files, Existing existing) {

@@ -26,9 +26,7 @@ std::string write_projected(const std::string& path, const Scene& scene, const P
                             bool force) {
   namespace fs = std::filesystem;
   const std::string beside = fs::path(path).replace_extension(".toml").string();
-  for (const std::string& one : {path, beside}) {
-    if (!force && fs::exists(one)) throw InputError(one + ": exists already; --force replaces it");
-  }
+  const Existing existing = existing_pair(path, beside, force, "--force replaces it");
   Hdf5Writer file = Hdf5Writer::in_memory(path);
   write_terms(file, "M", family.pencil().M);
   write_terms(file, "C", family.pencil().C);
@@ -37,7 +35,7 @@ std::string write_projected(const std::string& path, const Scene& scene, const P
   static const std::regex key("(^|\n)([ \t]*file[ \t]*=[ \t]*)(\"[^\"\n]*\"|'[^'\n]*')");
   const std::string name = fs::path(path).filename().string();
   const std::string image = file.image(), text = std::regex_replace(scene.text, key, "$1$2\"" + name + "\"");
-  write_durably({{path, {image}}, {beside, {text}}}, force ? Existing::replace : Existing::keep);
+  write_durably({{path, {image}}, {beside, {text}}}, existing);
   return beside;
 }
 

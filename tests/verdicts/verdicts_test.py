@@ -234,6 +234,28 @@ class OtherPaths(VerdictTest):
         for rough, fine in zip(*found):
             self.assertLess(abs(rough - fine), 1e-5 * abs(fine))
 
+    def test_rounding_of_a_stiff_axis_does_not_divide_steps(self):
+        found = []
+        for tolerance in (1e-6, 1e-8, 1e-10):
+            file = self.trace_model("slender_column", "--branch", 2, "--tolerance", tolerance)
+            found.append([s for _, _, s in self.eval_rows(file, [101.0, 105.0, 110.0])])
+            with self.open(file) as loci:
+                self.assertLess(len(loci["P"]), 150)
+        for values in found[1:]:
+            for one, other in zip(found[0], values):
+                self.assertLess(abs(one - other), 2e-6 * abs(other))
+
+    def test_an_imperfect_column_bends_to_one_side(self):
+        # Beyond the buckling load a small load from the side changes the buckled column little.
+        buckled = self.eval_rows(self.trace_model("slender_column", "--branch", 2), [110.0])
+        text = (MODELS / "slender_column.toml").read_text(encoding="utf-8")
+        self.write("imperfect.toml", text + "[gravity]\nacceleration = [0, 1e-6, 0]\n")
+        self.run_well("trace", "imperfect.toml", "-o", "imperfect.h5", "--quiet")
+        with self.open("imperfect.h5") as loci:
+            self.assertLess(len(loci["P"]), 150)
+        for (_, _, s), (_, _, expected) in zip(self.eval_rows("imperfect.h5", [110.0]), buckled):
+            self.assertLess(abs(s - expected), 1e-4 * abs(expected))
+
 
 class Names(VerdictTest):
     def test_without_torsion_nothing_is_called_so(self):

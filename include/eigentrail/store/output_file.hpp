@@ -18,6 +18,12 @@ void check_can_create(const std::string& path);
 /// What becomes of a file that is there when another one is written to its path.
 enum class Existing { keep, replace };
 
+/// What becomes of two files of which `second` refers to `first` and is renamed last: they are replaced if
+/// `force`, and if a run was killed after it had renamed the first only. Throws InputError if one of them is
+/// there otherwise, with `advice`.
+Existing existing_pair(const std::string& first, const std::string& second, bool force,
+                       const std::string& advice);
+
 /// A file to write: its bytes are `parts`, one after the other.
 struct NewFile {
   std::string path;
