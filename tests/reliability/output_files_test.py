@@ -95,6 +95,18 @@ class OutputFiles(CommandTest):
                 (self.folder / output).unlink()
                 self.assertEqual(self.names(), before)
 
+    def test_half_of_an_import_is_completed(self):
+        np.savez(self.folder / "model.npz", M=np.eye(2), K=np.eye(2))
+        command = ("import", "numpy", "model.npz", "-o", "new")
+        self.run_well(*command)
+        new = self.folder / "new"
+        whole = {path.name: path.read_bytes() for path in new.iterdir()}
+        (new / "model.toml").rename(new / "model.toml.partial")  # as a kill between both leaves it
+        self.run_well(*command)
+        self.assertEqual({path.name: path.read_bytes() for path in new.iterdir()}, whole)
+        (new / "model.toml").unlink()
+        self.assert_refused(self.run_program(*command), ["model.h5: exists already"])
+
     def test_imports_stay_in_their_folder(self):
         np.savez(self.folder / "model.npz", M=np.eye(2), K=np.eye(2))
         before = self.names()
