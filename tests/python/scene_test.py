@@ -190,6 +190,16 @@ class Saving(unittest.TestCase):
             self.assertNotEqual((self.folder / name).read_bytes(), b"mine")
         self.assertEqual(len(list(self.folder.iterdir())), 5)
 
+    def test_a_pair_that_was_cut_short_is_completed(self):
+        family, scene = et.Family(M=[[1]], K=[[1]], parameter="p"), self.folder / "family.toml"
+        family.save(scene)
+        scene.rename(f"{scene}.partial")  # as a kill between both files leaves it
+        family.save(scene)
+        self.assertEqual({path.name for path in self.folder.iterdir()}, {"family.toml", "family.h5"})
+        scene.unlink()
+        with self.assertRaises(FileExistsError):
+            family.save(scene)
+
     def test_pipes_are_not_replaced(self):
         os.mkfifo(self.folder / "out.h5")
         with self.assertRaisesRegex(FileExistsError, "no regular file"):

@@ -107,7 +107,11 @@ def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], overwrite: 
 
 
 def write(contents: Mapping[str, bytes], overwrite: bool) -> None:
-    """Writes files, each as a whole. If one of them exists, none is written and FileExistsError is raised, unless `overwrite`."""
+    """Writes files, each as a whole, in their order. If one of them exists, none is written and FileExistsError is raised, unless
+    `overwrite` or a process was killed after it had written all but the last."""
+    *others, last = contents
+    partial = {path for path in contents if os.path.lexists(f"{path}.partial")}
+    overwrite = overwrite or bool(others) and partial == {last} and not os.path.lexists(last)
     for path in contents:
         if os.path.lexists(path) and not overwrite:
             raise FileExistsError(f"{path}: exists; give another name, or overwrite=True")
