@@ -128,6 +128,7 @@ REPEATED = {  # these are short
     "export": ["export", "loci.h5"],
     "report": ["report", "loci.h5"],
     "plot": ["plot", "loci.h5"],
+    "merge": ["merge", "part_1.h5", "part_2.h5", "--quiet"],
 }
 ENDINGS = {"export": ".csv", "report": ".html", "plot": ".svg", "sweep": "", "import": ""}
 MEASURED = {"wall_time"}  # datasets of measured times
@@ -138,6 +139,8 @@ def make_inputs(folder):
     (folder / "plane.toml").write_text(CURVES)
     np.savez(folder / "matrices.npz", M=np.eye(40), K=np.arange(1600.0).reshape(40, 40))
     subprocess.run([PROGRAM, "trace", "scene.toml", "-o", "loci.h5", "--quiet"], cwd=folder, check=True)
+    for part in (1, 2):
+        subprocess.run([PROGRAM, *RESUMED["map"], "--part", f"{part}/2", "-o", f"part_{part}.h5"], cwd=folder, check=True)
 
 
 def is_whole(path, whole):
