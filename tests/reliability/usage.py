@@ -90,7 +90,8 @@ RESUMED = [
     row("resumed map of another scene", [*MAP, *SECOND, "--grid", "400x20", "--resume", "--set", "damping=0.3"], "new.h5: cannot be resumed: scene: line",
         prepare=unfinished),
     row("boundary over an interrupted map", [*BOUNDARY, *SECOND, "--resume"], "command: was 'map' and is 'boundary'", prepare=unfinished),
-    row("resumed map that is complete", ["map", "column.toml", *SECOND, "-o", "map.h5", "--resume"], "map.h5: exists already"),
+    row("resumption of a complete map of other input", ["map", "column.toml", *SECOND, "-o", "map.h5", "--resume"],
+        "map.h5: cannot be resumed: it is of other input", "begin anew with --force"),
     *(row(f"{command[0]} resumed by force", [*command, "--resume", "--force"], "--force", "--resume")
       for command in ([*MAP, *SECOND], [*BOUNDARY, *SECOND], ACCURACY, ["sweep", "scene.toml", "--vary", "drag=1,2"])),
     row("resumption from a text", [*MAP, *SECOND, "--resume"], "new.h5.unfinished: is no file of an interrupted run; rename it",
