@@ -145,7 +145,7 @@ Existing existing_pair(const std::string& first, const std::string& second, bool
   const bool half =
       exists(first) && !exists(partial_name(first)) && !exists(second) && exists(partial_name(second));
   if (force || half) return Existing::replace;
-  for (const std::string& path : {first, second}) {
+  for (const std::string& path : {second, first}) {
     if (exists(path)) throw InputError(path + ": exists already; " + advice);
   }
   return Existing::keep;

@@ -12,7 +12,8 @@
 
 namespace eigentrail {
 
-/// A real matrix in dense or sparse storage. It becomes a dense one only by dense(): that of a large model may not fit into memory.
+/// A real matrix in dense or sparse storage. It becomes a dense one only by dense(): that of a large model
+/// may not fit into memory.
 template <class Real>
 class BasicSystemMatrix {
  public:
