@@ -83,6 +83,18 @@ TEST_F(OutputFileTest, FilesThatBelongTogetherAreRenamedOnceAllAreWritten) {
   EXPECT_EQ(files(), 0u);
 }
 
+TEST_F(OutputFileTest, HalfOfAPairIsReplacedOnlyWhereAKillHasLeftIt) {
+  const std::string first = folder / "out.h5", second = folder / "out.toml";
+  EXPECT_EQ(existing_pair(first, second, false, ""), Existing::keep);
+  write_durably(first, {"one"});
+  EXPECT_THROW(existing_pair(first, second, false, ""), InputError);
+  EXPECT_EQ(existing_pair(first, second, true, ""), Existing::replace);
+  write_durably(second + ".partial", {"two"});
+  EXPECT_EQ(existing_pair(first, second, false, ""), Existing::replace);
+  write_durably(first + ".partial", {"another one"});
+  EXPECT_THROW(existing_pair(first, second, false, ""), InputError);
+}
+
 TEST_F(OutputFileTest, PermissionsAndLinksOfTheReplacedFileStay) {
   using std::filesystem::perms;
   const std::string link = folder / "link.h5";
