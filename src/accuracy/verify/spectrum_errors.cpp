@@ -47,6 +47,12 @@ Vector eigenvalue_errors(const RecordedPath& path, const PathPosition& position,
     const PathStep& step = path.steps[side.step];
     const bool at_node = side.t == 0.0 || side.t == 1.0;
     for (const DenseBlock& block : step.blocks) {
+      for (const std::size_t node : {side.step, side.step + 1}) {
+        for (const int mode : block.modes) {
+          const double rounding = path.rounding_at(node, mode);
+          if (std::isfinite(rounding)) errors[mode] = std::max(errors[mode], rounding);
+        }
+      }
       if (block.size() == 1) continue;
       const Vector of_block = block_errors(block, step.length, side.t, s, at_node, tolerance, reference);
       for (std::size_t i = 0; i < block.modes.size(); ++i) {

@@ -35,34 +35,17 @@ constexpr double beside_meeting = 0.1;
 /// last place.
 constexpr double rounding_of_sums = 8.0;
 
-/// Error of p by rounding at a point, relative to the last place: of p, and of the equilibrium. Rounding of
-/// the forces K x does as much work along the path as a force by that change of p. Where p acts by
-/// constraints or conditions, or is stationary, this tells nothing.
-double rounding_of_parameter(const PathNode& node, int traced) {
-  const SystemMatrix &K = node.linearization.K[0], &A = node.linearization.A[0];
-  const double of_p = std::abs(node.p);
-  if (node.path.x.rows() != K.rows() || node.path.lambda.rows() != A.rows()) return of_p;
-  const Vector along = node.path.x.col(1), reaction = A.transposed_times(node.path.lambda.col(1));
-  const Vector stiff = K * along;
-  const auto work = [&along](const Vector& force) { return std::abs(along.dot(force)); };
-  const double of_parameter = work(stiff + reaction);
-  constexpr double digits = std::numeric_limits<double>::epsilon();
-  if (of_parameter <= std::sqrt(digits) * (work(stiff) + work(reaction))) return of_p;
-  const Vector forces =
-      K.visit([&](const auto& values) { return Vector(values.cwiseAbs() * node.path.x.col(0).cwiseAbs()); });
-  return std::max(of_p,
-                  along.cwiseAbs().dot(forces) / of_parameter * std::abs(node.path.parameters(traced, 1)));
-}
-
 /// Estimated error of p on a step / accepted error, which is at least that by rounding.
 double parameter_error(const PathFrame& frame, double tolerance, const Step& step) {
   const int traced = frame.range.traced;
   const auto row = [&](const PathNode& node) {
     return ComplexMatrix(node.path.parameters.row(traced).cast<Complex>());
   };
-  const double rounding =
-      rounding_of_sums * std::numeric_limits<double>::epsilon() *
-      std::max(rounding_of_parameter(*step.left, traced), rounding_of_parameter(step.right, traced));
+  double rounding = 0.0;
+  for (const PathNode* node : {step.left, &step.right})
+    rounding =
+        std::max({rounding, rounding_of_sums * std::numeric_limits<double>::epsilon() * std::abs(node->p),
+                  rounding_along_path(*node) * std::abs(frame.speed(*node))});
   return HermiteInterpolant(step.h, row(*step.left), row(step.right)).error_without_last()[0] /
          std::max(parameter_accuracy * tolerance * frame.range.length(), rounding);
 }
@@ -102,6 +85,20 @@ Vector estimated_errors(const HermiteInterpolant& dense, const Track& track) {
 }
 
 }  // namespace
+
+double rounding_along_path(const PathNode& node) {
+  const SystemMatrix &K = node.linearization.K[0], &A = node.linearization.A[0];
+  if (node.path.x.rows() != K.rows() || node.path.lambda.rows() != A.rows()) return 0.0;
+  const Vector along = node.path.x.col(1), reaction = A.transposed_times(node.path.lambda.col(1));
+  const Vector stiff = K * along;
+  const auto work = [&along](const Vector& force) { return std::abs(along.dot(force)); };
+  const double of_parameter = work(stiff + reaction);
+  constexpr double digits = std::numeric_limits<double>::epsilon();
+  if (of_parameter <= std::sqrt(digits) * (work(stiff) + work(reaction))) return 0.0;
+  const Vector forces =
+      K.visit([&](const auto& values) { return Vector(values.cwiseAbs() * node.path.x.col(0).cwiseAbs()); });
+  return rounding_of_sums * digits * along.cwiseAbs().dot(forces) / of_parameter;
+}
 
 double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,
                    std::size_t i) {

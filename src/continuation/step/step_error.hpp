@@ -18,6 +18,11 @@ constexpr double accepted_share = 0.5;
 /// there.
 constexpr double least_relative_gap = 0.1;
 
+/// Error of the place of a point on the path by rounding of the equilibrium, in the coordinate: rounding of
+/// the forces K x does as much work along the path as the parameters on that distance. Zero where the
+/// parameters act by constraints or conditions, or are stationary, where this tells nothing.
+double rounding_along_path(const PathNode& node);
+
 /// Error of one track; infinite if it cannot be computed. `rounding`: that of eigenvalues, relative to their
 /// condition and size, which is no error of the step.
 double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,

@@ -65,12 +65,21 @@ std::string too_small_message(const PathProblem& problem, const TraceOptions& op
          remarks;
 }
 
-std::string rounding_note(const TraceOptions& options, const PathNode& node, const Track& track,
-                          double known) {
+void take_least_known(const PathProblem& problem, const TracePoint& point, LeastKnown& least) {
+  for (const Track& track : point.node.tracks) {
+    if (track.size() > 1 || track.departure) continue;
+    for (const ModeState& state : point.modes) {
+      const double error = state.rounding / std::max(std::abs(state.s), problem.s_ref);
+      if (state.mode == track.modes[0] && error > least.error) least = {error, state.mode, point.node.p};
+    }
+  }
+}
+
+std::string rounding_note(const TraceOptions& options, const LeastKnown& least) {
   std::ostringstream text;
   text.precision(1);
-  text << names_of(track) << "rounding leaves the eigenvalue known to " << std::scientific << known
-       << " beside " << place_text(options, node.p);
+  text << "mode " << least.mode + 1 << ": rounding leaves the eigenvalue known to " << std::scientific
+       << least.error << " of its magnitude at " << place_text(options, least.p);
   return text.str();
 }
 

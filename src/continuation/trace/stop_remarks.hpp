@@ -2,6 +2,7 @@
 #pragma once
 
 #include "continuation/step/step.hpp"
+#include "continuation/trace/trace_state.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {
@@ -11,9 +12,10 @@ namespace eigentrail {
 std::string too_small_message(const PathProblem& problem, const TraceOptions& options, const PathNode& node,
                               const Verdict& verdict);
 
-/// The note that rounding keeps the eigenvalues of a track from the tolerance beside a point; `known`: their
-/// relative accuracy there.
-std::string rounding_note(const TraceOptions& options, const PathNode& node, const Track& track,
-                          double known);
+/// Takes the modes of a point that are followed alone: of eigenvalues that meet only the functions are known.
+void take_least_known(const PathProblem& problem, const TracePoint& point, LeastKnown& least);
+
+/// The note that rounding keeps an eigenvalue from the tolerance.
+std::string rounding_note(const TraceOptions& options, const LeastKnown& least);
 
 }  // namespace eigentrail

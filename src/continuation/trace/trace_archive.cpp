@@ -166,12 +166,18 @@ static void fields(Self& self, Visit& visit) {
   visit(track, looks);
 }
 
+template <SameAs<LeastKnown> Self, class Visit>
+static void fields(Self& self, Visit& visit) {
+  auto& [error, mode, p] = self;
+  visit(error, mode, p);
+}
+
 template <SameAs<TraceState> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [settings, result, control, origin, frame, branches, numbers, copies, histories, events, dismissed,
-         steps, ended] = self;
+         steps, ended, least_known] = self;
   visit(settings, result, control, origin, frame, branches, numbers, copies, histories, events, dismissed,
-        steps, ended);
+        steps, ended, least_known);
 }
 
 std::string save_state(const TraceState& state) {

@@ -147,8 +147,7 @@ double distance_to_next(const std::vector<double>& places, const PathFrame& fram
 }
 
 /// Whether a step is too inaccurate, or just not so, because of rounding that was not known yet. Then it is
-/// known now; otherwise steps would not grow again. The first time that it keeps an eigenvalue from the
-/// tolerance, a note says so.
+/// known now; otherwise steps would not grow again.
 bool notices_rounding(const PathProblem& problem, const TraceOptions& options, const Step& step,
                       const Verdict& verdict, TraceState& state) {
   constexpr double just_accurate = 0.25;  // of the accepted error: below the one that steps aim at
@@ -160,12 +159,7 @@ bool notices_rounding(const PathProblem& problem, const TraceOptions& options, c
   const double seen = observed_rounding(problem, options.tolerance, step, index);
   if (seen <= before) return false;
   note_rounding(track, seen, state.frame);
-  if (known_rounding(state.frame, track) < seen) return false;  // of guests only
-  // The accepted error, and twice the error that was seen.
-  const double known = accepted_share * (1.0 + 2.0 * verdict.error) * options.tolerance;
-  if (before == 0.0 && known > options.tolerance && state.result.notes.size() < most_notes)
-    state.result.notes.push_back(rounding_note(options, *step.left, track, known));
-  return true;
+  return known_rounding(state.frame, track) >= seen;  // less of guests
 }
 
 /// Modes that have to be followed from a point on. `meets`: eigenvalues coincide there.
@@ -213,8 +207,7 @@ TraceResult TraceLoop::run() {
     prepare_to_follow();
     follow();
   }
-  state_.result.seconds = seconds_so_far();
-  return std::move(state_.result);
+  return finish();
 }
 
 TraceResult TraceLoop::resume(std::string_view bytes) {
@@ -224,6 +217,12 @@ TraceResult TraceLoop::resume(std::string_view bytes) {
   seconds_before_ = state_.result.seconds;
   begin_ = std::chrono::steady_clock::now();
   follow();
+  return finish();
+}
+
+TraceResult TraceLoop::finish() {
+  if (state_.least_known.error > options_.tolerance)
+    state_.result.notes.push_back(rounding_note(options_, state_.least_known));
   state_.result.seconds = seconds_so_far();
   return std::move(state_.result);
 }
@@ -627,9 +626,12 @@ bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   result.reached = node.p;
   ++result.nodes;
   const StageTimer timer(result.counts.output_seconds);
-  if (observer_.point({node, mode_states(node, problem_.traced, state_.copies, problem_.thresholds.rounding),
-                       step, growing_unfollowed_}))
-    return true;
+  const double along = state_.frame.plane ? rounding_along_path(node) : 0.0;
+  const TracePoint point{
+      node, mode_states(node, problem_.traced, state_.copies, problem_.thresholds.rounding, along), step,
+      growing_unfollowed_};
+  take_least_known(problem_, point, state_.least_known);
+  if (observer_.point(point)) return true;
   return stop(TraceStatus::stopped, "stopped on request at " + place_text(options_, node.p));
 }
 

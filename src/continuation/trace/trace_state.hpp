@@ -43,6 +43,13 @@ struct StepMemory {
   double turned_step = 0.0;   ///< length of the next step if the coordinate has just changed, else 0
 };
 
+/// The point and mode of which rounding leaves least known.
+struct LeastKnown {
+  double error = 0.0;  ///< relative to max(|s|, reference)
+  int mode = 0;
+  double p = 0.0;
+};
+
 /// The whole state.
 struct TraceState {
   TraceSettings settings = {};
@@ -58,6 +65,7 @@ struct TraceState {
   std::vector<Event> dismissed = {};  ///< predicted veerings that turned out to be none
   StepMemory steps = {};
   std::vector<EndedTrack> ended = {};  ///< tracks that are looked for
+  LeastKnown least_known = {};
 };
 
 /// The problem of a trace: the model along the traced parameter with the values in the options. `apply` adds

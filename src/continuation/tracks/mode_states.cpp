@@ -33,9 +33,8 @@ ComplexMatrix vectors_of(const Track& track) {
   return ordered;
 }
 
-/// Derivative of a root of a track with respect to p, in its chart. `speed` = dp / d(coordinate). NaN where
-/// another root is too close.
-Complex slope_of(const Track& track, Complex root, Eigen::Index index, double speed) {
+/// Derivative of a root of a track along the path, in its chart. NaN where another root is too close.
+Complex slope_of(const Track& track, Complex root, Eigen::Index index) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const double scale = std::max(track.pair.Lambda.norm(), least_scale);
   double nearest = INFINITY;
@@ -44,16 +43,18 @@ Complex slope_of(const Track& track, Complex root, Eigen::Index index, double sp
   }
   if (!(nearest > coinciding_roots * scale)) return {nan, nan};
   const ComplexVector series = root_series(track.functions, root);
-  return series.size() > 1 ? series[1] / speed : Complex(nan, nan);
+  return series.size() > 1 ? series[1] : Complex(nan, nan);
 }
 
-/// The mode of root i of a track; `vectors` as from vectors_of.
+/// The mode of root i of a track; `vectors` as from vectors_of. `rounding`: of the root at its place,
+/// `along`: of the place. `speed` = dp / d(coordinate).
 ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMatrix& vectors,
-                   double rounding, double speed) {
+                   double rounding, double along, double speed) {
   ModeState state;
   state.mode = mode;
   const Complex root = track.roots[i];
-  const Complex slope = slope_of(track, root, i, speed);
+  const Complex derivative = slope_of(track, root, i), slope = derivative / speed;
+  if (along > 0.0 && std::isfinite(std::abs(derivative))) rounding += along * std::abs(derivative);
   state.s = chart_value(root, track.pair.chart);
   state.slope = track.pair.chart == Chart::finite ? slope : -slope * state.s * state.s;
   state.shape = track.series.Z[0] * vectors.col(i);
@@ -84,7 +85,7 @@ void add_copies(const TangentBasis& basis, int part, const std::vector<int>& num
 }  // namespace
 
 std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies,
-                                   const RoundingThresholds& thresholds) {
+                                   const RoundingThresholds& thresholds, double along) {
   std::vector<ModeState> states;
   const double speed = coefficient(node.path.parameters, traced, 1);
   for (const Track& track : node.tracks) {
@@ -96,7 +97,7 @@ std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeC
         const bool seen = std::any_of(states.begin(), states.end(),
                                       [mode](const ModeState& state) { return state.mode == mode; });
         if (mode < 0 || seen) continue;
-        states.push_back(state_of(track, i, mode, vectors, rounding[i], speed));
+        states.push_back(state_of(track, i, mode, vectors, rounding[i], along, speed));
         add_copies(node.basis, track.pair.part, copies.of(mode), states);
       }
     }

@@ -7,8 +7,9 @@
 namespace eigentrail {
 
 /// Every mode that exists before or behind the point, those of `copies` included. `traced`: index of the
-/// traced parameter.
+/// traced parameter. `along`: error of the place on the path by rounding, in its coordinate, which is one of
+/// the eigenvalues, too.
 std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies = {},
-                                   const RoundingThresholds& thresholds = {});
+                                   const RoundingThresholds& thresholds = {}, double along = 0.0);
 
 }  // namespace eigentrail
