@@ -22,6 +22,7 @@ enum class EventKind {
   extremum,       ///< the damping ratio of a complex pair has a local minimum or maximum
   log_decrement,  ///< the logarithmic decrement of a complex pair has a requested value
   band_edge,      ///< Im s of a complex pair passes an end of the band of frequencies that is followed
+  cusp,           ///< two folds in one: the equilibrium path is vertical there and does not turn back
 };
 
 /// What differs between an event of a mode and the same event of the equal mode of a copy of its part.

@@ -44,7 +44,8 @@ double allowed_distance(const CheckedFile& file, const Event& event, const PathP
                         bool is_large) {
   constexpr double zero = 1e-3;        // in units of the reference
   constexpr double branch_zero = 0.1;  // likewise: the place is that of the equilibrium
-  if (event.kind == EventKind::branch_point) return branch_zero * file.accuracy.reference;
+  if (event.kind == EventKind::branch_point || event.kind == EventKind::cusp)
+    return branch_zero * file.accuracy.reference;
   if (event.s == 0.0) return zero * file.accuracy.reference;
   double allowed = file.accuracy.tolerance;
   if (event.kind == EventKind::collision) {

@@ -77,7 +77,7 @@ bool is_finite(double value) {
   return std::isfinite(value);
 }
 
-constexpr std::array<EventKindInfo, 12> kinds{{
+constexpr std::array<EventKindInfo, 13> kinds{{
     {EventKind::flutter, "flutter", "flutter", "x", true, stability_remark},
     {EventKind::divergence, "divergence", "divergence", "cross", true, stability_remark},
     {EventKind::collision, "collision", "collision", "star", true, collision_remark},
@@ -111,6 +111,7 @@ constexpr std::array<EventKindInfo, 12> kinds{{
      {"log_decrement", "where the logarithmic decrement of a pair has this value", "must be a finite number",
       is_finite}},
     {EventKind::band_edge, "band_edge", "edge of the band", "line-ew-open", false, band_remark},
+    {EventKind::cusp, "cusp", "cusp", "y-up-open", true, no_remark},
 }};
 
 }  // namespace

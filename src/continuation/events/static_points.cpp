@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/events/event_record.hpp"
+#include "continuation/step/step_error.hpp"
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "steady/sparse_kkt.hpp"
@@ -31,6 +32,17 @@ double kernel_share(const EventSearch& search, const PathNode& node) {
   const PathProblem& problem = search.problem();
   return kernel_share_of_parameter(problem.model, node.path, problem.traced, node.linearization,
                                    node.basis.T[0], search.solver.counts().evaluations);
+}
+
+/// Whether the two folds beside a point, or the one on it and the next, have the same p to what is accepted
+/// of it: p = c1 h + c2 h^2 + c3 h^3 is stationary at places whose p differ by 4 |c2^2 - 3 c1 c3|^(3/2) / (27
+/// c3^2).
+bool is_cusp(const EventSearch& search, const PathNode& node) {
+  const PathFrame& frame = search.frame();
+  const auto c = [&](Eigen::Index k) { return coefficient(node.path.parameters, frame.range.traced, k); };
+  const double discriminant = c(2) * c(2) - 3.0 * c(1) * c(3);
+  return frame.plane && 4.0 * std::pow(std::abs(discriminant), 1.5) <=
+                            27.0 * c(3) * c(3) * accepted_parameter_error(frame, search.options.tolerance);
 }
 
 /// Sets modes and shape of an event from the eigenvalue that is nearest to zero.
@@ -73,7 +85,7 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   // the stiffness, of motion with these parameters held, is not.
   const bool trimmed = search.problem().model.n_trims() > 0;
   const bool is_fold = trimmed || kernel_share(search, node) > search.thresholds().statics.branch_point_share;
-  event.kind = is_fold ? EventKind::fold : EventKind::branch_point;
+  event.kind = !is_fold ? EventKind::branch_point : is_cusp(search, node) ? EventKind::cusp : EventKind::fold;
   if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
   // The vertex of the parabola p(h): with the distance d to it and the slope at the point, p changes by
   // d / 2 times the slope on the way.
@@ -114,10 +126,16 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   if (passes || !is_zero || !may_be) return {{std::move(event)}};
   if (frame.bridge && std::abs(event.p - frame.branch_point.p) <= at_branch_point * frame.range.length())
     return {};
-  if (kernel_share(search, node) > thresholds.branch_point_share) return {};
-  event.kind = EventKind::branch_point;
+  const bool is_limit = kernel_share(search, node) > thresholds.branch_point_share;
+  if (is_limit && !is_cusp(search, node)) return {};
   event.puiseux = 0.0;
   event.s = 0.0;
+  if (is_limit) {
+    event.kind = EventKind::cusp;
+    event.direction = 0;
+    return {{std::move(event)}};
+  }
+  event.kind = EventKind::branch_point;
   event.modes.clear();
   event.copies.clear();
   FoundEvents found;

@@ -108,7 +108,8 @@ bool renew_plane(PathFrame& frame, PathNode& node) {
 bool grows_towards_pole(const PathFrame& frame, const PathNode& previous, const PathNode& node) {
   if (!frame.plane) return false;
   const Vector x = node.path.x.col(0);
-  if (!(x.norm() > pole_growth * previous.path.x.col(0).norm())) return false;
+  const double size = x.norm();
+  if (!(size > pole_growth * previous.path.x.col(0).norm() && size >= frame.largest_position)) return false;
   // |x| = a / (pole - p) has |x| / (d|x|/dp) = pole - p.
   const double growth = x.dot(node.path.x.col(1)) / x.squaredNorm();
   return std::abs(frame.speed(node)) < beside_pole * frame.range.length() * growth;

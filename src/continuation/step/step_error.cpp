@@ -47,7 +47,7 @@ double parameter_error(const PathFrame& frame, double tolerance, const Step& ste
         std::max({rounding, rounding_of_sums * std::numeric_limits<double>::epsilon() * std::abs(node->p),
                   rounding_along_path(*node) * std::abs(frame.speed(*node))});
   return HermiteInterpolant(step.h, row(*step.left), row(step.right)).error_without_last()[0] /
-         std::max(parameter_accuracy * tolerance * frame.range.length(), rounding);
+         std::max(accepted_parameter_error(frame, tolerance), rounding);
 }
 
 /// Largest of `root error(t) / accepted error(t)` at places of a step where errors are largest, for errors of
@@ -85,6 +85,10 @@ Vector estimated_errors(const HermiteInterpolant& dense, const Track& track) {
 }
 
 }  // namespace
+
+double accepted_parameter_error(const PathFrame& frame, double tolerance) {
+  return parameter_accuracy * tolerance * frame.range.length();
+}
 
 double rounding_along_path(const PathNode& node) {
   const SystemMatrix &K = node.linearization.K[0], &A = node.linearization.A[0];

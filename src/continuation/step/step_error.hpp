@@ -18,6 +18,9 @@ constexpr double accepted_share = 0.5;
 /// there.
 constexpr double least_relative_gap = 0.1;
 
+/// Accepted error of p on a step where the coordinate is the distance across a plane.
+double accepted_parameter_error(const PathFrame& frame, double tolerance);
+
 /// Error of the place of a point on the path by rounding of the equilibrium, in the coordinate: rounding of
 /// the forces K x does as much work along the path as the parameters on that distance. Zero where the
 /// parameters act by constraints or conditions, or are stationary, where this tells nothing.
