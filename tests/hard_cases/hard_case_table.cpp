@@ -1,5 +1,5 @@
-// Prints the summary table of docs/developers/hard_cases.md: every hard case at several tolerances,
-// directions and first steps.
+// Prints the figures of docs/developers/hard_cases.md: every hard case at several tolerances, directions
+// and first steps.
 //
 //     hard_case_table [--rivals] [--samples N] [--first-steps a,b,...] [name ...]
 //     hard_case_table --scene name
