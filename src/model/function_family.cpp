@@ -61,6 +61,13 @@ void check(const FunctionFamilyOptions& options) {
   }
 }
 
+/// What is rounding of the entries of a matrix, from their largest magnitudes: a share of the geometric mean
+/// of the largest ones in the row and in the column, in which units cancel.
+Matrix rounding_of_entries(const Matrix& largest) {
+  const Vector rows = largest.rowwise().maxCoeff(), columns = largest.colwise().maxCoeff();
+  return rounding_share * (rows * columns.transpose()).cwiseSqrt();
+}
+
 /// Which matrices the function returns, and their size.
 class Layout {
  public:
@@ -106,17 +113,12 @@ class Layout {
            std::to_string(own % n_) + ", " + std::to_string(own / n_) + ")";
   }
 
-  /// What is rounding, from the largest magnitudes of all entries: a share of the geometric mean of the
-  /// largest ones in the row and in the column, in which units cancel.
+  /// What is rounding, from the largest magnitudes of all entries.
   Vector rounding(const Vector& largest) const {
     Vector result(largest.size());
-    for (Eigen::Index next = 0; next < largest.size(); next += n_ * n_) {
-      const auto magnitudes = largest.segment(next, n_ * n_).reshaped(n_, n_);
-      const Vector rows = magnitudes.rowwise().maxCoeff();
-      const Vector columns = magnitudes.colwise().maxCoeff();
-      const Matrix scales = (rows * columns.transpose()).cwiseSqrt();
-      result.segment(next, n_ * n_) = rounding_share * scales.reshaped();
-    }
+    for (Eigen::Index next = 0; next < largest.size(); next += n_ * n_)
+      result.segment(next, n_ * n_) =
+          rounding_of_entries(largest.segment(next, n_ * n_).reshaped(n_, n_)).reshaped();
     return result;
   }
 
@@ -187,6 +189,25 @@ FunctionSymmetry symmetry(const std::vector<FamilyPiece>& pieces, std::vector<Ma
     }
   }
   return symmetric ? FunctionSymmetry::symmetric : skew ? FunctionSymmetry::skew : FunctionSymmetry::none;
+}
+
+/// Makes a matrix exactly symmetric, or skew, if it is so but for rounding of the caller's function.
+void remove_asymmetry(std::vector<Matrix> FamilyPiece::*matrix, std::vector<FamilyPiece>& pieces) {
+  Matrix largest = (pieces.front().*matrix).front().cwiseAbs();
+  for (const FamilyPiece& piece : pieces) {
+    for (const Matrix& c : piece.*matrix) largest = largest.cwiseMax(c.cwiseAbs());
+  }
+  const Matrix rounding = rounding_of_entries(largest);
+  for (const double sign : {1.0, -1.0}) {
+    const bool is_so = std::all_of(pieces.begin(), pieces.end(), [&](const FamilyPiece& piece) {
+      return std::all_of((piece.*matrix).begin(), (piece.*matrix).end(), [&](const Matrix& c) {
+        return ((c - sign * c.transpose()).cwiseAbs().array() <= rounding.array()).all();
+      });
+    });
+    for (FamilyPiece& piece : pieces) {
+      for (Matrix& c : piece.*matrix) c = is_so ? Matrix(0.5 * (c + sign * c.transpose())) : c;
+    }
+  }
 }
 
 bool is_constant(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
@@ -278,6 +299,8 @@ Interpolated interpolate(const FunctionFamily::Function& function, const Functio
     throw NotResolved(unresolved_text(options, *layout, what, result.calls), what.from, what.to);
   std::vector<FamilyPiece> pieces;
   for (const ChebyshevPiece& piece : result.pieces) pieces.push_back(layout->piece(piece));
+  for (const auto matrix : {&FamilyPiece::M, &FamilyPiece::C, &FamilyPiece::K})
+    remove_asymmetry(matrix, pieces);
   ModelDescription description = describe(options, pieces, result.calls);
   return {std::move(description), std::move(pieces), result.calls,
           options.resolution * (options.to - options.from)};

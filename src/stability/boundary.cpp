@@ -39,8 +39,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<CurveStart> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [point, failure, counts] = self;
-  visit(point, failure, counts);
+  auto& [point, failure, remark, counts] = self;
+  visit(point, failure, remark, counts);
 }
 
 template <SameAs<Curve> Self, class Visit>
@@ -181,6 +181,7 @@ void BoundarySearch::start() {
       note({"changes of stability that could not be followed", start.failure});
       fail("a change of stability could not be followed");
     }
+    if (!start.remark.empty()) note({start.remark, window_.text(seeds_[starts_.size()].place)});
     starts_.push_back(std::move(start.point));
   }
 }
@@ -341,6 +342,7 @@ BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& option
 std::string boundary_name(BoundaryKind kind) {
   switch (kind) {
     case BoundaryKind::flutter:
+    case BoundaryKind::coalescence:
       return "flutter";
     case BoundaryKind::divergence:
       return "divergence";

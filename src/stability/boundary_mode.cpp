@@ -1,6 +1,7 @@
 #include "stability/boundary_mode.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 
 #include "core/matrix_series.hpp"
@@ -36,7 +37,18 @@ double reference(const Window& window, const BoundaryFunction& function, const R
 
 }  // namespace
 
+ComplexMatrix BoundaryFunction::functions(const std::vector<ComplexMatrix>& Lambda) const {
+  const ComplexMatrix own = block_functions(Lambda);
+  if (kind != BoundaryKind::coalescence) return own;
+  ComplexMatrix all(3, own.cols());
+  all.row(0) = own.row(0).real().cast<Complex>();
+  all.row(1) = -square(own.row(0).imag().transpose()).transpose().cast<Complex>();
+  all.row(2) = own.row(1);
+  return all;
+}
+
 Vector BoundaryFunction::series(const ComplexMatrix& functions) const {
+  if (kind == BoundaryKind::coalescence) return functions.row(2).real().transpose();
   const Vector tau = functions.row(0).real().transpose();
   if (kind != BoundaryKind::damping_ratio) return tau;
   const double z2 = damping_ratio * damping_ratio;
@@ -44,7 +56,7 @@ Vector BoundaryFunction::series(const ComplexMatrix& functions) const {
 }
 
 double BoundaryFunction::distance_to_end(double tau, double delta) const {
-  if (kind == BoundaryKind::divergence) return INFINITY;
+  if (kind == BoundaryKind::divergence || kind == BoundaryKind::coalescence) return INFINITY;
   return kind == BoundaryKind::flutter ? -delta : -tau * damping_ratio;
 }
 
@@ -69,8 +81,9 @@ Situation compute_situation(const Window& window, const BoundaryFunction& functi
   }
   const TangentBasis& basis = result.point.basis;
   InvariantPair start;
-  start.is_real = true;
+  start.is_real = function.kind != BoundaryKind::coalescence;
   start.Z = reduced(basis, guess.block.Z.real()).cast<Complex>();
+  if (!start.is_real) start.Z += Complex(0.0, 1.0) * reduced(basis, guess.block.Z.imag()).cast<Complex>();
   start.Lambda = guess.block.Lambda;
   result.pencil = result.point.pencil;
   result.bordered = function.kind == BoundaryKind::divergence;
@@ -87,7 +100,7 @@ Situation compute_situation(const Window& window, const BoundaryFunction& functi
     result.message = "the corrector did not converge to the mode";
     return result;
   }
-  result.functions = block_functions({result.pair.Lambda});
+  result.functions = function.functions({result.pair.Lambda});
   return result;
 }
 
@@ -118,7 +131,8 @@ PlaceGuess as_guess(const Situation& situation, const Place& place) {
 }
 
 std::optional<SituationSeries> differentiate_situation(const Window& window, const Situation& situation,
-                                                       const Matrix& places, int order, RunCounts& counts) {
+                                                       const BoundaryFunction& function, const Matrix& places,
+                                                       int order, RunCounts& counts) {
   PathProblem problem = window.at(situation.place);
   problem.order = order - 1;
   std::optional<PathNode> node =
@@ -130,7 +144,7 @@ std::optional<SituationSeries> differentiate_situation(const Window& window, con
                         ? differentiate_pair({situation.pencil.M, situation.pencil.C, node->pencil.K},
                                              situation.pair, order, counts.modes)
                         : differentiate_pair(node->pencil, situation.pair, order, counts.modes);
-  series.functions = block_functions(mode.Lambda);
+  series.functions = function.functions(mode.Lambda);
   if (!series.functions.allFinite()) return std::nullopt;
   if (!node->basis.is_identity) {
     std::vector<ComplexMatrix> T;
@@ -143,12 +157,12 @@ std::optional<SituationSeries> differentiate_situation(const Window& window, con
 }
 
 std::optional<Matrix> function_gradients(const Window& window, const Situation& situation,
-                                         RunCounts& counts) {
+                                         const BoundaryFunction& function, RunCounts& counts) {
   Matrix gradients(situation.functions.rows(), 2);
   for (int i = 0; i < 2; ++i) {
     Matrix places(2, 2);
     places << situation.place, Place::Unit(i);
-    const auto series = differentiate_situation(window, situation, places, 1, counts);
+    const auto series = differentiate_situation(window, situation, function, places, 1, counts);
     if (!series) return std::nullopt;
     gradients.col(i) = series->functions.col(1).real();
   }
@@ -165,7 +179,7 @@ Place gradient(const BoundaryFunction& function, const ComplexMatrix& functions,
   return result;
 }
 
-BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, const StartingMode& mode) {
+BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, std::span<const StartingMode> modes) {
   const auto physical = [&point](const ComplexMatrix& Z) {
     return point.basis.is_identity ? Z : ComplexMatrix(point.basis.T[0].cast<Complex>() * Z);
   };
@@ -177,9 +191,18 @@ BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, const St
     block.Lambda = ComplexMatrix::Zero(1, 1);
     return block;
   }
+  if (kind == BoundaryKind::coalescence) {
+    ComplexMatrix both(modes[0].z.size(), 2);
+    both << modes[0].z, modes[1].z;
+    const Eigen::HouseholderQR<ComplexMatrix> qr(both);
+    const ComplexMatrix R = qr.matrixQR().topRows(2).triangularView<Eigen::Upper>();
+    block.Z = physical(qr.householderQ() * ComplexMatrix::Identity(both.rows(), 2));
+    block.Lambda = R * Eigen::Vector2cd(modes[0].s, modes[1].s).asDiagonal() * R.inverse();
+    return block;
+  }
   InvariantPair upper;
-  upper.Z = mode.z;
-  upper.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
+  upper.Z = modes[0].z;
+  upper.Lambda = ComplexMatrix::Constant(1, 1, modes[0].s);
   const InvariantPair pair = with_conjugate(upper);
   block.Z = physical(pair.Z);
   block.Lambda = pair.Lambda;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "eigentrail/modes/spectrum.hpp"
 #include "stability/window.hpp"
@@ -14,7 +15,12 @@ struct BoundaryFunction {
   BoundaryKind kind = BoundaryKind::flutter;
   double damping_ratio = 0.0;  ///< the ratio asked for; used by kind damping_ratio only
 
-  /// Power series of g from those of the block's functions (row 0: tau, row 1: delta; divergence: g).
+  /// Power series of the functions of a block with this Lambda. Row 0: tau, row 1: delta; divergence: g;
+  /// coalescence: tau and delta of the pair that two modes become, row 2: delta of both.
+  ComplexMatrix functions(const std::vector<ComplexMatrix>& Lambda) const;
+  /// Row of the functions that g depends on first.
+  Eigen::Index row() const { return kind == BoundaryKind::coalescence ? 2 : 0; }
+  /// Power series of g from those of the functions.
   Vector series(const ComplexMatrix& functions) const;
 
   /// Whether the curve ends at or before a point with these values of tau and delta: flutter ends where the
@@ -26,11 +32,11 @@ struct BoundaryFunction {
   double distance_to_end(double tau, double delta) const;
 };
 
-/// The followed block (the mode and its conjugate, or the null vector of K) at a place, predicted or
-/// computed.
+/// The followed block (the mode and its conjugate, two modes without theirs, or the null vector of K) at a
+/// place, predicted or computed.
 struct BoundaryBlock {
-  ComplexMatrix Z;       ///< n x k, physical coordinates; k = 2 for a pair, 1 for divergence
-  ComplexMatrix Lambda;  ///< k x k, real
+  ComplexMatrix Z;       ///< n x k, physical coordinates; k = 2 for a pair or two modes, 1 for divergence
+  ComplexMatrix Lambda;  ///< k x k, real but for two modes
   Vector left;           ///< n, physical: approximate left null vector of the stiffness; divergence only
 };
 
@@ -76,17 +82,19 @@ struct SituationSeries {
 /// `places`: series of the curve in scaled coordinates, 2 x m with m <= order + 1; column 0 is the place
 /// itself. Empty if a coefficient is not finite.
 std::optional<SituationSeries> differentiate_situation(const Window& window, const Situation& situation,
-                                                       const Matrix& places, int order, RunCounts& counts);
+                                                       const BoundaryFunction& function, const Matrix& places,
+                                                       int order, RunCounts& counts);
 
 /// Derivatives of the block's k functions with respect to the scaled P and Q: k x 2. Empty if one is not
 /// finite.
-std::optional<Matrix> function_gradients(const Window& window, const Situation& situation, RunCounts& counts);
+std::optional<Matrix> function_gradients(const Window& window, const Situation& situation,
+                                         const BoundaryFunction& function, RunCounts& counts);
 
 /// Gradient of g with respect to the scaled P and Q, from the functions (order 0) and their gradients.
 Place gradient(const BoundaryFunction& function, const ComplexMatrix& functions, const Matrix& gradients);
 
-/// The block of a mode of a spectrum at a reduced point. For divergence: the singular vectors of the smallest
-/// singular value of K; `mode` is not used.
-BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, const StartingMode& mode);
+/// The block of the first mode, or the first two, at a reduced point. For divergence: the singular vectors of
+/// the smallest singular value of K; `modes` is not used.
+BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, std::span<const StartingMode> modes);
 
 }  // namespace eigentrail

@@ -175,7 +175,7 @@ PlaceGuess CornerFinder::guess_at(At at, double t) const {
 
 Complex CornerFinder::eigenvalue(At at, const Situation& situation) const {
   if (curves_[at.curve].function.kind == BoundaryKind::divergence) return 0.0;
-  const ComplexVector roots = block_roots(situation.functions.col(0));
+  const ComplexVector roots = block_roots(situation.functions.col(0).head(2));
   return roots[0].imag() >= 0.0 ? roots[0] : roots[1];
 }
 
@@ -195,7 +195,7 @@ bool CornerFinder::locate(At a, At b, const Place& t) {
       const BoundaryFunction& function = curves_[at[k].curve].function;
       there[k] = compute_situation(window_, function, guess[k], counts_);
       if (there[k].status != PointStatus::computed) return false;
-      const auto gradients = function_gradients(window_, there[k], counts_);
+      const auto gradients = function_gradients(window_, there[k], function, counts_);
       if (!gradients) return false;
       const auto row = static_cast<Eigen::Index>(k);
       slopes.row(row) = gradient(function, there[k].functions, *gradients).transpose();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/matrix_series.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/normalization.hpp"
 
 namespace eigentrail {
@@ -32,9 +33,10 @@ void read_mode(const Situation& situation, CurvePoint& point) {
   ComplexVector z = pair.Z.col(0);
   point.s = 0.0;
   if (pair.size() == 2) {
-    const Eigen::EigenSolver<Matrix> solver(Matrix(pair.Lambda.real()));
+    const Eigen::ComplexEigenSolver<ComplexMatrix> solver(pair.Lambda);
     const Eigen::Index upper = solver.eigenvalues()[0].imag() >= 0.0 ? 0 : 1;
-    point.s = solver.eigenvalues()[upper];
+    const ComplexVector roots = block_roots(situation.functions.col(0).head(2));
+    point.s = Complex(roots[0].real(), std::abs(roots[0].imag()));
     z = pair.Z * solver.eigenvectors().col(upper);
   }
   z = normalize_shape(z, situation.pencil.M[0], {});
@@ -49,15 +51,16 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
   const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
   ++counts.spectra;
   if (spectrum.modes.empty()) return;
-  const auto nearest = std::min_element(
-      spectrum.modes.begin(), spectrum.modes.end(),
-      [&](const auto& a, const auto& b) { return std::abs(a.s - point.s) < std::abs(b.s - point.s); });
-  point.number = static_cast<int>(nearest - spectrum.modes.begin()) + 1;
-  point.gap = INFINITY;
-  for (auto mode = spectrum.modes.begin(); mode != spectrum.modes.end(); ++mode) {
-    if (mode != nearest) point.gap = std::min(point.gap, std::abs(mode->s - point.s));
-    const double zero = vanishing * std::max(std::abs(mode->s), window.reference());
-    if (mode != nearest && instability(function, mode->s) > zero) ++point.others;
+  std::vector<std::size_t> nearest = numbers_to(spectrum.modes.size());
+  const auto distance = [&](std::size_t mode) { return std::abs(spectrum.modes[mode].s - point.s); };
+  std::sort(nearest.begin(), nearest.end(),
+            [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+  const std::size_t own = function.kind == BoundaryKind::coalescence ? 2 : 1;
+  point.number = static_cast<int>(nearest[0]) + 1;
+  point.gap = nearest.size() > own ? distance(nearest[own]) : INFINITY;
+  for (std::size_t i = own; i < nearest.size(); ++i) {
+    const Complex s = spectrum.modes[nearest[i]].s;
+    if (instability(function, s) > vanishing * std::max(std::abs(s), window.reference())) ++point.others;
   }
 }
 
@@ -65,7 +68,7 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
 
 std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunction& function,
                                        const Situation& situation, const Place& along, RunCounts& counts) {
-  const auto gradients = function_gradients(window, situation, counts);
+  const auto gradients = function_gradients(window, situation, function, counts);
   if (!gradients) return std::nullopt;
   const Place slope = gradient(function, situation.functions, *gradients);
   const double steepness = slope.norm();
@@ -80,11 +83,12 @@ std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunct
   point.places.col(0) = point.place;
   point.places.col(1) = point.tangent;
   for (int k = 2; k <= order; ++k) {
-    const auto known = differentiate_situation(window, situation, point.places.leftCols(k), k, counts);
+    const auto known =
+        differentiate_situation(window, situation, function, point.places.leftCols(k), k, counts);
     if (!known) return std::nullopt;
     point.places.col(k) = -function.series(known->functions)[k] / steepness * point.normal;
   }
-  auto series = differentiate_situation(window, situation, point.places, order, counts);
+  auto series = differentiate_situation(window, situation, function, point.places, order, counts);
   if (!series) return std::nullopt;
   point.path = std::move(series->node.path);
   point.mode = std::move(series->mode);
@@ -113,7 +117,7 @@ CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& fu
   point.places.col(0) = point.place;
   point.tangent = point.places.col(1);
   point.normal = Place(-point.tangent.y(), point.tangent.x());
-  if (point.functions.rows() == 2) point.functions = along.bottomRows(2).cast<Complex>();
+  if (point.functions.rows() > 1) point.functions.topRows(2) = along.bottomRows(2).cast<Complex>();
   point.path.x.col(0) = situation.point.equilibrium.x;
   read_mode(situation, point);
   count_others(window, function, situation.point.pencil, point, counts);
@@ -160,7 +164,7 @@ Situation correct_along(const Window& window, const BoundaryFunction& function, 
                         const Place& direction, RunCounts& counts) {
   return correct(window, function, std::move(guess), counts,
                  [&](const Situation& situation) -> std::optional<Place> {
-                   const auto gradients = function_gradients(window, situation, counts);
+                   const auto gradients = function_gradients(window, situation, function, counts);
                    if (!gradients) return std::nullopt;
                    const Place slope = gradient(function, situation.functions, *gradients);
                    const Place along = direction.isZero(0.0) ? slope : direction;
@@ -172,7 +176,7 @@ Situation correct_to_end(const Window& window, const BoundaryFunction& function,
                          RunCounts& counts) {
   return correct(window, function, std::move(guess), counts,
                  [&](const Situation& situation) -> std::optional<Place> {
-                   const auto gradients = function_gradients(window, situation, counts);
+                   const auto gradients = function_gradients(window, situation, function, counts);
                    if (!gradients) return std::nullopt;
                    const Matrix inverse = gradients->inverse();
                    return Place(-inverse * situation.functions.col(0).real());

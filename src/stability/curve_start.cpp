@@ -25,18 +25,18 @@ Situation correct_seed(const Window& window, const BoundarySeed& seed, const Bou
   failed.status = point.status;
   failed.message = point.message;
   if (point.status != PointStatus::computed) return failed;
-  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   ++counts.spectra;
   failed.status = PointStatus::mode_lost;
   if (spectrum.modes.empty()) return failed;
-  const auto nearest = std::min_element(
-      spectrum.modes.begin(), spectrum.modes.end(),
-      [&](const auto& a, const auto& b) { return std::abs(a.s - seed.s) < std::abs(b.s - seed.s); });
-  if (seed.kind != BoundaryKind::divergence && nearest->s.imag() == 0.0) return failed;
+  std::sort(spectrum.modes.begin(), spectrum.modes.end(),
+            [&](const auto& a, const auto& b) { return std::abs(a.s - seed.s) < std::abs(b.s - seed.s); });
+  if (seed.kind != BoundaryKind::divergence && spectrum.modes[0].s.imag() == 0.0) return failed;
+  if (seed.kind == BoundaryKind::coalescence && spectrum.modes.size() < 2) return failed;
   PlaceGuess guess;
   guess.place = seed.place;
   guess.equilibrium = {point.equilibrium.x, point.equilibrium.lambda, true};
-  guess.block = starting_block(seed.kind, point, *nearest);
+  guess.block = starting_block(seed.kind, point, spectrum.modes);
   guess.basis = point.basis.T[0];
   const Place gradient_itself = Place::Zero();  // correct_along takes zero as the direction of grad g
   for (const Place& direction :
@@ -70,12 +70,19 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
   const double delta = there.functions.rows() > 1 ? there.functions(1, 0).real() : 0.0;
   // tau = 0 with two real eigenvalues of opposite sign (flutter), or tau of the wrong sign (damping ratio).
   if (function.passed_end(tau, delta)) return start;
-  const auto gradients = function_gradients(window, there, start.counts);
+  const auto gradients = function_gradients(window, there, function, start.counts);
   const double size = seed.kind == BoundaryKind::divergence
                           ? there.pencil.K[0].norm()
                           : std::max(there.pair.Lambda.norm(), window.reference());
-  if (!gradients || !(gradients->row(0).norm() > flat * size)) return start;
+  if (!gradients || !(gradients->row(function.row()).norm() > flat * size)) return start;
   start.point = expand_curve(window, function, there, Place::Zero(), start.counts);
+  if (seed.kind != BoundaryKind::coalescence || !start.point) return start;
+  // Damped modes do not meet; the curve would go on where their mean is no mode.
+  if (start.point->functions.row(0).cwiseAbs().maxCoeff() <= flat * size) return start;
+  start.point.reset();
+  start.remark =
+      "onset of flutter without damping, beside which modes are damped; as damping vanishes, the "
+      "boundary may have another limit";
   return start;
 }
 

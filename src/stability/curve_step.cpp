@@ -26,7 +26,7 @@ Matrix in_chord(const CurvePoint& point, const Place& chord) {
   Matrix series = Matrix::Zero(4, count);
   series.topRows(2) = point.places;
   // For divergence the block's only function is g, and tau = delta = 0 along the curve.
-  if (point.functions.rows() == 2) series.bottomRows(2) = point.functions.real();
+  if (point.functions.rows() > 1) series.bottomRows(2) = point.functions.topRows(2).real();
   compose_columns(series, power_table(reversion(sigma)));
   return series;
 }
@@ -46,7 +46,7 @@ std::optional<ChordStep> make_chord_step(const CurvePoint& left, const CurvePoin
     return std::nullopt;
   step.left = in_chord(left, direction);
   step.right = in_chord(right, direction);
-  if (left.functions.rows() == 2)
+  if (left.functions.rows() > 1)
     step.rounding = function_rounding(left.mode.Lambda[0]).cwiseMax(function_rounding(right.mode.Lambda[0]));
   return step;
 }

@@ -89,7 +89,7 @@ std::optional<Probe> probe(const Window& window, const BoundaryOptions& options,
   for (std::size_t i = 0; i < 3; ++i) {
     Matrix places(2, 2);
     places << place, directions[i];
-    const auto series = differentiate_situation(window, situation, places, 2, counts);
+    const auto series = differentiate_situation(window, situation, BoundaryFunction(), places, 2, counts);
     if (!series) return std::nullopt;
     for (int k = 0; k <= 2; ++k) s[i][k] = series->functions(0, k);
     w[i] = instability_series(options, s[i]);

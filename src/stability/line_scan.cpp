@@ -20,6 +20,10 @@ constexpr int halvings = 40;
 constexpr double largest_jump = 1e-3;
 /// A divergence seed closer to a fold than this, in the scaled window, is the fold itself.
 constexpr double beside_fold = 1e-4;
+/// Newton's method for a coalescence begins at this distance from it, in the scaled window, where the shapes
+/// of both modes differ. Farther ones may lie behind another meeting, nearer ones give a basis with fewer
+/// digits.
+constexpr double beside_coalescence = 0.01;
 /// A trace is complete if it ends no farther from its end value than this multiple of the range.
 constexpr double arrived = 1e-9;
 
@@ -83,6 +87,7 @@ class Scanner {
   const BoundaryOptions& options_;
   const ScanLine& line_;
   LineScan scan_;
+  std::vector<Path> paths_;  ///< at the points of the trace
   std::optional<Path> left_;
   ComplexVector at_left_;
   std::optional<Sample> before_, last_;
@@ -142,6 +147,7 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.events = {.extrema = false};  // the scan finds the extrema that it needs itself
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
+  paths_.clear();
   left_.reset();
   before_.reset();
   last_.reset();
@@ -171,6 +177,7 @@ bool Scanner::take(const TracePoint& point) {
       look_at(step, std::max(t - 1.0 / samples_per_step, 0.0), step(t), t);
     }
   }
+  paths_.push_back(point.node.path);
   left_ = point.node.path;
   at_left_ = std::move(at_right);
   return true;
@@ -226,8 +233,8 @@ void Scanner::add_extremum(Eigen::Index mode, double before, double here, double
   scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
 }
 
-/// Notes folds of the equilibrium and collisions on the imaginary axis, whose curves are not followed.
-/// Divergence seeds at a fold are removed.
+/// Seeds where modes without damping coalesce. Notes folds of the equilibrium, whose curves are not followed;
+/// divergence seeds at a fold are removed.
 void Scanner::report(const TraceResult& result) {
   for (const Event& event : result.events) {
     const Place place = line_.at(window_.scaled(line_.along, event.p));
@@ -238,10 +245,15 @@ void Scanner::report(const TraceResult& result) {
       });
     }
     const bool on_axis = std::abs(event.s.real()) <= 1e-6 * std::abs(event.s);
-    if (event.kind == EventKind::collision && event.modes.size() > 1 && event.s.imag() != 0.0 && on_axis)
-      scan_.findings.push_back(
-          {"modes without damping that coalesce, which is not followed (add a little damping)",
-           window_.text(place)});
+    if (options_.damping_ratio || event.kind != EventKind::collision || event.modes.size() != 2 ||
+        event.s.imag() == 0.0 || !on_axis)
+      continue;
+    const Path& path = paths_[static_cast<std::size_t>(event.node)];
+    const Place direction = Place::Unit(line_.along);
+    const Place beside =
+        place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
+    scan_.seeds.push_back({beside, direction, BoundaryKind::coalescence, event.s,
+                           EquilibriumGuess{path.x.col(0), path.lambda.col(0), true}});
   }
 }
 

@@ -1,6 +1,8 @@
 // Stability boundaries in the plane of two parameters P and Q.
 //
 //   flutter        {Re s = 0} of a complex pair      tau = (s + conj s) / 2 = 0 with delta = -(Im s)^2 < 0
+//                  of modes without damping: two pairs i w1, i w2 meet and leave the imaginary axis
+//                                                    (i w1 - i w2)^2 / 4 = 0, a coalescence
 //   divergence     {s = 0}                           the tangent stiffness is singular
 //   damping ratio  {-Re s / |s| = z}                 z^2 delta + (1 - z^2) tau^2 = 0 with tau z < 0
 //
@@ -29,7 +31,10 @@ namespace eigentrail {
 
 using Place = Eigen::Vector2d;  ///< a point of the parameter plane: P and Q
 
-enum class BoundaryKind { flutter, divergence, damping_ratio };
+/// A coalescence is a flutter of modes without damping; its tau and delta are those of the pair that both
+/// become.
+enum class BoundaryKind { flutter, divergence, damping_ratio, coalescence };
+/// That of a coalescence is "flutter".
 std::string boundary_name(BoundaryKind kind);
 
 /// How a curve begins or ends.
