@@ -146,6 +146,21 @@ class Functions(unittest.TestCase):
             et.map(et.Family(quadratic), omega=(0, 1), d=(0, 1))
 
 
+    def test_a_matrix_that_is_symmetric_but_for_rounding_cannot_flutter(self):
+        # Two equal planes of a shaft in coordinates that mix them: K is symmetric to 1e-16 only.
+        n = 6
+        Q = np.linalg.qr(np.random.default_rng(0).standard_normal((2 * n, 2 * n)))[0]
+        shaft = 1e4 * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+
+        def matrices(p):
+            K = shaft + np.diag([1e3 * (1 + 0.3 * np.sin(p))] + (n - 2) * [0.0] + [3e3 * np.sqrt(1 + p * p)])
+            return dict(M=np.eye(2 * n), K=Q.T @ np.kron(np.eye(2), K) @ Q)
+
+        for tolerance in (1e-6, 1e-8):
+            loci = et.trace(et.Family(matrices), p=(0, 3), tolerance=tolerance)
+            self.assertEqual(len(loci.eigentrail.events), 0)
+            self.assertEqual(np.abs(loci.eigenvalue.values.real).max(), 0.0)
+
 class Mistakes(unittest.TestCase):
     def test_shapes(self):
         for build, text in ((lambda: et.Family(M=np.eye(2), K=np.ones((2, 3))), "K: expected a square matrix"),

@@ -50,7 +50,7 @@ bool CheckedFile::is_meeting(std::size_t number) const {
   const double range = loci.highest() - loci.lowest();
   return std::any_of(events.begin(), events.end(), [&](const Event& event) {
     const bool meets = event.kind == EventKind::collision || event.kind == EventKind::crossing;
-    const bool turns = event.kind == EventKind::fold || event.kind == EventKind::branch_point;
+    const bool turns = is_static(event.kind);
     const double distance = std::abs(event.p - p);
     return (meets && distance <= near * length) || (turns && distance <= near_turn * range);
   });

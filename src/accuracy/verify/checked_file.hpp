@@ -10,6 +10,11 @@
 
 namespace eigentrail {
 
+/// Whether the stiffness is singular at events of a kind, and the path may turn.
+inline bool is_static(EventKind kind) {
+  return kind == EventKind::fold || kind == EventKind::branch_point || kind == EventKind::cusp;
+}
+
 struct CheckedFile {
   const LociFile& loci;
   const TraceSetup& setup;

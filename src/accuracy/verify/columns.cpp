@@ -46,8 +46,8 @@ void compare_derivatives(const CheckedFile& file, const std::vector<Complex>& st
         const std::size_t node = at_left ? i : i + 1;
         const Complex slope = slope_of(block, loci.steps[i], at_left);
         const Complex given = stored[node * loci.modes.size() + static_cast<std::size_t>(block.modes[0])];
-        // Neither is finite where eigenvalues meet, at infinity and at a fold.
-        if (!std::isfinite(std::abs(slope)) || std::isnan(given.real())) continue;
+        // Neither is known where eigenvalues meet, at infinity, and where the path is vertical.
+        if (!std::isfinite(std::abs(slope)) || std::isnan(given.real()) || file.is_meeting(node)) continue;
         const double length = std::max(std::abs(loci.p[i + 1] - loci.p[i]), 1e-300);
         const double size = file.scale_of(loci.eigenvalues(static_cast<Eigen::Index>(node), block.modes[0]));
         if (std::abs(given - slope) <= close * (std::abs(slope) + size / length)) continue;

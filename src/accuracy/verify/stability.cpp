@@ -50,8 +50,7 @@ std::optional<int> change_by_events(const CheckedFile& file, std::size_t from, s
     const auto node = static_cast<std::size_t>(event.node);
     if (node < from || node > to) continue;
     const bool on_axis = event.kind == EventKind::collision && event.direction != 0;
-    if (on_axis || event.kind == EventKind::fold || event.kind == EventKind::branch_point)
-      return std::nullopt;
+    if (on_axis || is_static(event.kind)) return std::nullopt;
     if (node == from) continue;
     const int members = event.kind == EventKind::flutter ? 2 : event.kind == EventKind::divergence ? 1 : 0;
     change += (loci.p[node] > loci.p[node - 1] ? members : -members) * event.direction;
@@ -73,9 +72,7 @@ bool goes_on(const CheckedFile& file, std::size_t step) {
 bool has_collision(const CheckedFile& file, std::size_t from, std::size_t to) {
   return std::any_of(file.events.begin(), file.events.end(), [&](const Event& event) {
     const auto node = static_cast<std::size_t>(event.node);
-    return node >= from && node <= to &&
-           (event.kind == EventKind::collision || event.kind == EventKind::fold ||
-            event.kind == EventKind::branch_point);
+    return node >= from && node <= to && (event.kind == EventKind::collision || is_static(event.kind));
   });
 }
 

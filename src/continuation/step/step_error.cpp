@@ -75,11 +75,6 @@ double worst_ratio(const PathProblem& problem, double tolerance, const Step& ste
   return worst;
 }
 
-/// By how much eigenvalues change if the pencil changes by its rounding times one, 1/s.
-double sensitivity_to_rounding(const Track& track) {
-  return track.pair.condition * track.pair.Lambda.norm();
-}
-
 Vector estimated_errors(const HermiteInterpolant& dense, const Track& track) {
   return (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
 }
@@ -102,6 +97,10 @@ double rounding_along_path(const PathNode& node) {
   const Vector forces =
       K.visit([&](const auto& values) { return Vector(values.cwiseAbs() * node.path.x.col(0).cwiseAbs()); });
   return rounding_of_sums * digits * along.cwiseAbs().dot(forces) / of_parameter;
+}
+
+double sensitivity_to_rounding(const Track& track) {
+  return track.pair.condition * track.pair.Lambda.norm();
 }
 
 double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,

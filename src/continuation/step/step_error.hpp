@@ -26,6 +26,9 @@ double accepted_parameter_error(const PathFrame& frame, double tolerance);
 /// parameters act by constraints or conditions, or are stationary, where this tells nothing.
 double rounding_along_path(const PathNode& node);
 
+/// By how much eigenvalues change if the pencil changes by its rounding times one, 1/s.
+double sensitivity_to_rounding(const Track& track);
+
 /// Error of one track; infinite if it cannot be computed. `rounding`: that of eigenvalues, relative to their
 /// condition and size, which is no error of the step.
 double track_error(const PathProblem& problem, double tolerance, double rounding, const Step& step,

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "continuation/events/event_search.hpp"
+#include "continuation/step/step_error.hpp"
 #include "eigentrail/core/constraint_factorization.hpp"
 
 namespace eigentrail {
@@ -65,13 +66,14 @@ std::string too_small_message(const PathProblem& problem, const TraceOptions& op
          remarks;
 }
 
-void take_least_known(const PathProblem& problem, const TracePoint& point, LeastKnown& least) {
-  for (const Track& track : point.node.tracks) {
-    if (track.size() > 1 || track.departure) continue;
-    for (const ModeState& state : point.modes) {
-      const double error = state.rounding / std::max(std::abs(state.s), problem.s_ref);
-      if (state.mode == track.modes[0] && error > least.error) least = {error, state.mode, point.node.p};
-    }
+void take_least_known(const PathProblem& problem, const PathFrame& frame, const PathNode& node, double along,
+                      LeastKnown& least) {
+  for (const Track& track : node.tracks) {
+    if (track.size() > 1 || track.departure || track.modes[0] < 0) continue;
+    const double rounding = known_rounding(frame, track) * sensitivity_to_rounding(track) +
+                            along * std::abs(track.functions(0, 1));
+    const double error = rounding / std::max(std::abs(track.roots[0]), problem.reference(track.pair.chart));
+    if (error > least.error) least = {error, track.modes[0], node.p};
   }
 }
 

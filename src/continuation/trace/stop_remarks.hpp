@@ -13,7 +13,9 @@ std::string too_small_message(const PathProblem& problem, const TraceOptions& op
                               const Verdict& verdict);
 
 /// Takes the modes of a point that are followed alone: of eigenvalues that meet only the functions are known.
-void take_least_known(const PathProblem& problem, const TracePoint& point, LeastKnown& least);
+/// `along`: error of the place on the path by rounding, in its coordinate.
+void take_least_known(const PathProblem& problem, const PathFrame& frame, const PathNode& node, double along,
+                      LeastKnown& least);
 
 /// The note that rounding keeps an eigenvalue from the tolerance.
 std::string rounding_note(const TraceOptions& options, const LeastKnown& least);

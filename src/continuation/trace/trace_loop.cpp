@@ -183,6 +183,14 @@ bool is_lengthened(const Step& step, TraceState& state) {
   return true;
 }
 
+/// The result, with what rounding leaves unknown.
+TraceResult finished(const TraceOptions& options, double seconds, TraceState& state) {
+  if (state.least_known.error > options.tolerance)
+    state.result.notes.push_back(rounding_note(options, state.least_known));
+  state.result.seconds = seconds;
+  return std::move(state.result);
+}
+
 }  // namespace
 
 TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const TraceObserver& observer,
@@ -207,7 +215,7 @@ TraceResult TraceLoop::run() {
     prepare_to_follow();
     follow();
   }
-  return finish();
+  return finished(options_, seconds_so_far(), state_);
 }
 
 TraceResult TraceLoop::resume(std::string_view bytes) {
@@ -217,14 +225,7 @@ TraceResult TraceLoop::resume(std::string_view bytes) {
   seconds_before_ = state_.result.seconds;
   begin_ = std::chrono::steady_clock::now();
   follow();
-  return finish();
-}
-
-TraceResult TraceLoop::finish() {
-  if (state_.least_known.error > options_.tolerance)
-    state_.result.notes.push_back(rounding_note(options_, state_.least_known));
-  state_.result.seconds = seconds_so_far();
-  return std::move(state_.result);
+  return finished(options_, seconds_so_far(), state_);
 }
 
 bool TraceLoop::start() {
@@ -630,7 +631,7 @@ bool TraceLoop::emit(const PathNode& node, const PathStep* step) {
   const TracePoint point{
       node, mode_states(node, problem_.traced, state_.copies, problem_.thresholds.rounding, along), step,
       growing_unfollowed_};
-  take_least_known(problem_, point, state_.least_known);
+  take_least_known(problem_, state_.frame, node, along, state_.least_known);
   if (observer_.point(point)) return true;
   return stop(TraceStatus::stopped, "stopped on request at " + place_text(options_, node.p));
 }

@@ -28,7 +28,6 @@ class TraceLoop final : private Checkpoint {
   const TraceResult& so_far() const override { return state_.result; }
   std::string save() const override { return save_state(state_); }
 
-  TraceResult finish();
   bool start();
   void prepare_to_follow();
   void follow();
