@@ -79,14 +79,9 @@ def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], overwrite: 
 
 
 def write(contents: Mapping[str, bytes], overwrite: bool) -> None:
-    """Writes files, each as a whole, in their order. If one of them exists, none is written and FileExistsError is raised, unless
-    `overwrite` or a process was killed after it had written all but the last."""
-    *others, last = contents
-    partial = {path for path in contents if os.path.lexists(f"{path}.partial")}
-    overwrite = overwrite or bool(others) and partial == {last} and not os.path.lexists(last)
+    """Writes one or two files, each as a whole, in their order. If one of them exists, none is written and FileExistsError is
+    raised, unless `overwrite`, or a process was killed after it had written the first of two."""
     for path in contents:
-        if os.path.lexists(path) and not overwrite:
-            raise FileExistsError(f"{path}: exists; give another name, or overwrite=True")
         if os.path.exists(path) and not os.path.isfile(path):
             raise FileExistsError(f"{path}: is no regular file, and is not replaced")
         if not os.path.isdir(os.path.dirname(path) or "."):
