@@ -7,6 +7,7 @@ import unittest
 
 import eigentrail
 import numpy as np
+import xarray
 
 from families import (THROUGH_INFINITY_ONCE, THROUGH_INFINITY_TWICE, coalescing, oscillators, random_family)
 from program import BIRTH, CROSSING, CROSSING_WITHIN, PUSHED_PENDULUM, SCENES, ProgramTest, each_case, edited
@@ -76,6 +77,35 @@ class HardOnes(AgainstEval):
                      for count in np.unique(row[row >= 0], return_counts=True)[1]}
         self.assertEqual({count if count < 3 else round(count**0.5) for count in functions}, sizes)
         self.assertEqual(set(loci.dense_chart.values.ravel().tolist()) - {-1}, charts)
+
+
+class InMemory(AgainstEval):
+    """Datasets that were opened or changed without the package."""
+
+    def setUp(self):
+        super().setUp()
+        self.loci = self.compare(coalescing(3), places=1)
+        self.values = np.linspace(*self.loci.p.values[[0, -1]], 50)
+        self.found = self.loci.eigentrail.sel(p=self.values)
+
+    def test_what_xarray_opens_is_evaluated(self):
+        plain = xarray.load_dataset(self.folder / "loci.h5", engine="h5netcdf")
+        changed = plain.assign(eigenvalue=plain.eigenvalue.astype("complex256"), certified=plain.certified.astype(float),
+                               natural_frequency=plain.frequency)
+        for name in ("eigenvalue", "certified"):
+            np.testing.assert_array_equal(changed.eigentrail.sel(p=self.values)[name], self.found[name])
+
+    def test_some_of_the_modes_of_a_block(self):
+        some = self.loci.isel(mode=[2, 0]).eigentrail.sel(p=self.values)
+        np.testing.assert_array_equal(some.eigenvalue, self.found.eigenvalue[:, [2, 0]])
+
+    def test_what_does_not_fit_is_named(self):
+        for name, change in (("dense_output", {"node": slice(0, 3)}), ("step_length", {})):
+            loci = self.loci.isel(change)
+            if not change:
+                loci["step_length"] = loci.step_length * np.nan
+            with self.assertRaisesRegex(eigentrail.SceneError, f"the Dataset: {name} "):
+                loci.eigentrail.sel(p=self.values)
 
 
 class TurningBack(AgainstEval):
