@@ -1,3 +1,4 @@
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -7,6 +8,7 @@
 
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
+#include "eigentrail/continuation/operating_range.hpp"
 #include "eigentrail/continuation/sensitivities.hpp"
 #include "eigentrail/explain.hpp"
 #include "eigentrail/projection/project.hpp"
@@ -92,6 +94,15 @@ std::string explanation(const Scene& scene, const Options& options, bool sensiti
   return taken();
 }
 
+/// Whether a critical speed keeps less than its margin from one of the ranges, or lies within it.
+bool is_too_close(const std::vector<std::pair<double, double>>& ranges, const std::optional<double>& margin,
+                  double speed, Complex s) {
+  OperatingRanges operating{{}, margin};
+  for (const auto& [from, to] : ranges) operating.ranges.push_back({from, to});
+  const std::optional<Separation> found = separation(operating, speed, s);
+  return found && found->is_too_close();
+}
+
 }  // namespace
 
 void add_points(py::module_& module) {
@@ -99,6 +110,11 @@ void add_points(py::module_& module) {
   module.def("explain", &explanation, py::arg("scene"), py::arg("options"), py::arg("sensitivity"));
   module.def("sensitivities", &sensitivities, py::arg("scene"), py::arg("options"), py::arg("value"),
              py::arg("guess"));
+  module.def("is_too_close", &is_too_close, py::arg("ranges"), py::arg("margin"), py::arg("speed"),
+             py::arg("s"));
+  module.def(
+      "api_margin", [](Complex s, bool below) { return api_margin(amplification_factor(s), below); },
+      py::arg("s"), py::arg("below"));
 }
 
 }  // namespace eigentrail::python
