@@ -111,11 +111,9 @@ Places boundary_places(const Places& length, const Places& series, const Places&
       length.size() != t.size())
     throw InputError("the Dataset: dense_output does not fit the other datasets");
   const py::ssize_t orders = series.shape(3);
-  using Rows = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>;
   Places result(std::vector<py::ssize_t>{t.size(), 4});
   for (py::ssize_t i = 0; i < t.size(); ++i) {
-    const Eigen::Map<const Rows> ends(series.data() + i * 8 * orders, 4, 2 * orders);
-    const BoundaryStep step{length.data()[i], ends.leftCols(orders), ends.rightCols(orders)};
+    const BoundaryStep step = boundary_step(length.data()[i], series.data() + i * 8 * orders, orders);
     Eigen::Map<Eigen::Vector4d>(result.mutable_data() + 4 * i) = evaluate_step(step, t.data()[i]);
   }
   return result;
