@@ -32,11 +32,9 @@ TraceSetup prepare_at(const Scene& scene, const Options& options, const std::vec
 py::dict spectrum(const Scene& scene, const Options& options, const std::vector<double>& values) {
   std::vector<OperatingPoint> points;
   std::vector<std::optional<Matrix>> errors;
-  std::vector<std::string> coordinates;
   unlocked([&] {
     const TraceSetup setup = prepare_at(scene, options, values);
     points = operating_points(setup, values);
-    coordinates = setup.model->description().coordinate_names;
     for (const OperatingPoint& point : points)
       errors.push_back(data_errors_at(*setup.model, setup.options, point));
   });
@@ -45,9 +43,11 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
     if (!points[k].fault.empty()) faults.append(py::make_tuple(points[k].p, points[k].fault));
     for (std::size_t i = 0; i < points[k].modes.size(); ++i) {
       const OperatingMode& mode = points[k].modes[i];
+      const Complex s = without_rounding(mode);
       py::dict row("parameter"_a = points[k].p, "mode"_a = i + 1, "eigenvalue"_a = mode.s,
-                   "what_moves"_a = mode.what_moves, "condition"_a = mode.condition,
-                   "rounding"_a = mode.rounding, "mode_shape"_a = mode.shape);
+                   "natural_frequency"_a = std::abs(s), "damped_frequency"_a = std::abs(s.imag()),
+                   "damping_ratio"_a = -s.real() / std::abs(s), "what_moves"_a = mode.what_moves,
+                   "condition"_a = mode.condition, "rounding"_a = mode.rounding);
       if (errors[k]) {
         row["interpolation_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 0);
         row["digits_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 1);
@@ -55,7 +55,7 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
       rows.append(row);
     }
   }
-  return py::dict("rows"_a = rows, "faults"_a = faults, "coordinates"_a = coordinates);
+  return py::dict("rows"_a = rows, "faults"_a = faults);
 }
 
 /// Derivatives of the eigenvalues with respect to all parameters that are not derived, at one value of the
