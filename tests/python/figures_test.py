@@ -446,8 +446,8 @@ class PlotCommand(FigureTest):
             ((file, "--kind", "shape", "--view", "top"), ["'3D', 'xy'"]),
             ((file, "--kind", "shape", "--at", "400"), ["--at 400", "from 5 to 100"]),
             ((file, "--kind", "shape", "--at", "100 Hz"), ["--at 100 Hz", "from 5 to 100"]),
-            ((file, "--kind", "shape", "--at", "fast"), ["--at 'fast'", "a number"]),
-            ((file, "--kind", "shape", "--at", "10 m"), ["--at '10 m'", "'rad/s'"]),
+            ((file, "--kind", "shape", "--at", "fast"), ["--at: ", "a number", "fast"]),
+            ((file, "--kind", "shape", "--at", "10 m"), ["--at: 10 m does not fit omega", "rad/s"]),
             ((self.folder / "nothing.h5",), ["nothing.h5: No such file"]),
             ((self.folder / "notes.txt",), ["notes.txt: cannot be read: HDF5 could not open it: it is no HDF5 file"]),
         ]:
