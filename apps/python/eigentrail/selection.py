@@ -7,8 +7,8 @@ from .engine import engine
 from .errors import SceneError
 
 # Datasets that hold the path of a trace, beside that of the parameter.
-OF_PATH = ("eigenvalue", "step_length", "step_parameter", "dense_output", "dense_block", "dense_chart", "mode_block",
-           "certified")
+OF_PATH: tuple[str, ...] = ("eigenvalue", "step_length", "step_parameter", "dense_output", "dense_block", "dense_chart",
+                            "mode_block", "certified")
 # Bounds of the errors of eigenvalues that come from the data, per step and mode; only for sampled families.
 DATA_ERRORS = ("interpolation_error", "digits_error")
 
