@@ -165,11 +165,7 @@ void add_runs(py::module_& module) {
       .def_readonly("interrupted", &Outcome::interrupted)
       .def_readonly("remarks", &Outcome::remarks);
   py::class_<FunctionSource>(module, "FunctionSource")
-      .def(py::init([](py::function call, double tolerance, int max_calls, double resolution,
-                       std::vector<double> breaks, std::vector<std::string> state_names) {
-             return FunctionSource{std::move(call), tolerance,         max_calls,
-                                   resolution,      std::move(breaks), std::move(state_names)};
-           }),
+      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>(),
            py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("resolution"),
            py::arg("breaks"), py::arg("state_names"));
   module.def("trace", &run_trace, py::arg("scene"), py::arg("options"), py::arg("function"),
