@@ -1,8 +1,8 @@
 // The data of boundary files, stability maps and accuracy studies.
 #include <map>
 
-#include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/stability/boundary.hpp"
 #include "report/file_data.hpp"
 
 namespace eigentrail {
@@ -42,22 +42,14 @@ class BoundaryCurves {
 
  private:
   Json step(std::size_t i) const {
-    const auto orders = static_cast<Eigen::Index>(shape_[3]);
-    ComplexMatrix left(4, orders), right(4, orders);
-    for (Eigen::Index row = 0; row < 4; ++row) {
-      for (Eigen::Index k = 0; k < orders; ++k) {
-        const auto at = static_cast<Eigen::Index>(i) * 8 * orders + row * 2 * orders + k;
-        left(row, k) = dense_[static_cast<std::size_t>(at)];
-        right(row, k) = dense_[static_cast<std::size_t>(at + orders)];
-      }
-    }
-    const HermiteInterpolant functions(length_[i], left, right);
+    const BoundaryStep here =
+        boundary_step(length_[i], dense_.data() + i * 8 * shape_[3], static_cast<Eigen::Index>(shape_[3]));
     std::vector<double> first, second, real, imag;
     for (int k = 0; k <= samples_per_step; ++k) {
-      const ComplexVector f = functions(static_cast<double>(k) / samples_per_step);
-      const Complex s = f[2] + std::sqrt(f[3]);
-      first.push_back(f[0].real());
-      second.push_back(f[1].real());
+      const Eigen::Vector4d f = evaluate_step(here, static_cast<double>(k) / samples_per_step);
+      const Complex s = f[2] + std::sqrt(Complex(f[3]));
+      first.push_back(f[0]);
+      second.push_back(f[1]);
       real.push_back(s.real());
       imag.push_back(std::abs(s.imag()));
     }

@@ -44,10 +44,10 @@ std::string report_page(const std::vector<std::string>& files) {
   return std::string(page()).replace(mark, data_mark.size(), data);
 }
 
-std::string drawing_data(const std::string& loci_path, std::size_t node) {
-  const LociFile loci = read_loci(loci_path);
+std::string drawing_data(std::string_view loci_file, std::size_t node) {
+  const LociFile loci = read_loci_image("result", loci_file);
   if (node >= loci.n_nodes())
-    throw InputError(loci_path + ": holds " + std::to_string(loci.n_nodes()) + " points, found number " +
+    throw InputError(loci.path + ": holds " + std::to_string(loci.n_nodes()) + " points, found number " +
                      std::to_string(node));
   return page_json({{"excitation", excitation_data(loci)}, {"geometry", geometry_data(loci, {node})}});
 }

@@ -94,6 +94,12 @@ BoundaryStep stored_step(const Window& window, const ChordStep& step) {
   return stored;
 }
 
+BoundaryStep boundary_step(double length, const double* series, Eigen::Index orders) {
+  using Rows = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> ends(series, 4, 2 * orders);
+  return {length, ends.leftCols(orders), ends.rightCols(orders)};
+}
+
 Eigen::Vector4d evaluate_step(const BoundaryStep& step, double t) {
   return interpolant(step.length, step.left, step.right, step.left.cols())(t).real();
 }

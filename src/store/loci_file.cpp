@@ -1,7 +1,6 @@
 #include "eigentrail/store/loci_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -10,11 +9,11 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "store/data_error_datasets.hpp"
 #include "store/loci_checks.hpp"
 #include "store/loci_schema.hpp"
+#include "store/path_datasets.hpp"
 #include "store/range_datasets.hpp"
 
 namespace eigentrail {
@@ -33,28 +32,14 @@ void check_format(const Hdf5File& file, const std::string& path) {
   }
 }
 
-using RowMajorComplex = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-void require(bool holds, const LociFile& loci, const std::string& dataset) {
-  if (!holds) throw InputError(loci.path + ": " + dataset + " does not fit the other datasets");
+void require(bool fits, const LociFile& loci, const std::string& dataset) {
+  require_fit(fits, loci.path, dataset);
 }
 
-void require_finite(const std::vector<double>& values, const LociFile& loci, const std::string& dataset) {
-  const auto bad = std::find_if_not(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  if (bad == values.end()) return;
-  throw InputError(loci.path + ": " + dataset + " holds " + exact_text(*bad) + " as its number " +
-                   std::to_string(bad - values.begin() + 1) + " where a finite number is needed");
-}
-
+/// What the points have besides their places and eigenvalues, if the file has it.
 void read_points(const Hdf5File& file, LociFile& loci) {
-  loci.p = file.read_real(loci.parameter);
-  require(file.shape(loci.parameter).size() == 1, loci, loci.parameter);
-  require_finite(loci.p, loci, loci.parameter);
-  require(file.shape("eigenvalue") == Shape{loci.p.size(), loci.modes.size()}, loci, "eigenvalue");
-  const std::vector<Complex> data = file.read_complex("eigenvalue");
-  loci.eigenvalues = Eigen::Map<const RowMajorComplex>(data.data(), static_cast<Eigen::Index>(loci.p.size()),
-                                                       static_cast<Eigen::Index>(loci.modes.size()));
   if (file.has("rounding")) {
     require(file.shape("rounding") == Shape{loci.p.size(), loci.modes.size()}, loci, "rounding");
     loci.rounding = Eigen::Map<const RowMajorReal>(file.read_real("rounding").data(), loci.eigenvalues.rows(),
@@ -64,107 +49,6 @@ void read_points(const Hdf5File& file, LociFile& loci) {
     for (const std::int64_t number : file.read_integers("growing_unfollowed"))
       loci.growing_unfollowed.push_back(static_cast<int>(number));
     require(loci.growing_unfollowed.size() == loci.p.size(), loci, "growing_unfollowed");
-  }
-}
-
-/// The datasets of the dense output as flat row-major arrays.
-struct DenseArrays {
-  Shape shape;  ///< step, function, end, order
-  std::vector<double> length, parameter;
-  std::vector<Complex> output;
-  std::vector<std::int64_t> block, chart, mode_block, certified;
-};
-
-DenseArrays read_arrays(const Hdf5File& file, const LociFile& loci) {
-  DenseArrays arrays;
-  arrays.shape = file.shape("dense_output");
-  const Shape& shape = arrays.shape;
-  const bool fits = shape.size() == 4 && shape[0] + 1 == std::max<std::uint64_t>(loci.p.size(), 1) &&
-                    shape[2] == 2 && shape[3] >= 2 && shape[3] <= static_cast<std::uint64_t>(max_order);
-  require(fits, loci, "dense_output");
-  require(file.shape("step_length") == Shape{shape[0]}, loci, "step_length");
-  require(file.shape("step_parameter") == Shape{shape[0], 2, shape[3]}, loci, "step_parameter");
-  for (const char* name : {"dense_block", "dense_chart"}) {
-    require(file.shape(name) == Shape{shape[0], shape[1]}, loci, name);
-  }
-  for (const char* name : {"mode_block", "certified"}) {
-    require(file.shape(name) == Shape{shape[0], loci.modes.size()}, loci, name);
-  }
-  arrays.length = file.read_real("step_length");
-  arrays.parameter = file.read_real("step_parameter");
-  require_finite(arrays.length, loci, "step_length");
-  double whole = 0.0;
-  for (const double length : arrays.length) whole += std::abs(length);
-  require(std::isfinite(whole), loci, "step_length");
-  require_finite(arrays.parameter, loci, "step_parameter");
-  arrays.output = file.read_complex("dense_output");
-  arrays.block = file.read_integers("dense_block");
-  arrays.chart = file.read_integers("dense_chart");
-  arrays.mode_block = file.read_integers("mode_block");
-  arrays.certified = file.read_integers("certified");
-  return arrays;
-}
-
-/// Modes of every block of a step; the index is that of the first function of the block.
-std::vector<std::vector<int>> modes_of_blocks(const DenseArrays& arrays, const LociFile& loci,
-                                              std::size_t step) {
-  const std::size_t n_modes = loci.modes.size();
-  std::vector<std::vector<int>> modes(arrays.shape[1]);
-  for (std::size_t mode = 0; mode < n_modes; ++mode) {
-    const std::int64_t block = arrays.mode_block[step * n_modes + mode];
-    require(block >= -1 && block < static_cast<std::int64_t>(modes.size()), loci, "mode_block");
-    if (block >= 0) modes[static_cast<std::size_t>(block)].push_back(static_cast<int>(mode));
-  }
-  return modes;
-}
-
-/// The block of a step whose first function is `first`.
-DenseBlock read_block(const DenseArrays& arrays, const LociFile& loci, std::size_t step, std::size_t first,
-                      std::vector<int> modes) {
-  const std::size_t functions = arrays.shape[1];
-  const std::size_t orders = arrays.shape[3];
-  const auto number = static_cast<std::int64_t>(first);
-  std::size_t size = 0;
-  while (first + size < functions && arrays.block[step * functions + first + size] == number) ++size;
-  // One, two, or the k^2 entries of a matrix.
-  const auto members = static_cast<std::size_t>(block_size(static_cast<Eigen::Index>(size)));
-  require(modes.size() <= members && (size <= 2 || members * members == size), loci, "dense_block");
-  DenseBlock block;
-  block.chart = arrays.chart[step * functions + first] == 1 ? Chart::reciprocal : Chart::finite;
-  block.left.resize(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(orders));
-  block.right = block.left;
-  for (std::size_t i = 0; i < size; ++i) {
-    const Complex* row = arrays.output.data() + (step * functions + first + i) * 2 * orders;
-    const auto at = static_cast<Eigen::Index>(i);
-    for (std::size_t k = 0; k < orders; ++k) {
-      block.left(at, static_cast<Eigen::Index>(k)) = row[k];
-      block.right(at, static_cast<Eigen::Index>(k)) = row[orders + k];
-    }
-  }
-  block.certified = std::all_of(modes.begin(), modes.end(), [&](int mode) {
-    return arrays.certified[step * loci.modes.size() + static_cast<std::size_t>(mode)] == 1;
-  });
-  block.modes = std::move(modes);
-  require(block.left.allFinite() && block.right.allFinite(), loci, "dense_output");
-  return block;
-}
-
-void read_steps(const Hdf5File& file, LociFile& loci) {
-  const DenseArrays arrays = read_arrays(file, loci);
-  const std::size_t functions = arrays.shape[1];
-  const std::size_t orders = arrays.shape[3];
-  for (std::size_t step = 0; step < arrays.shape[0]; ++step) {
-    PathStep path_step;
-    path_step.length = arrays.length[step];
-    path_step.parameter = Eigen::Map<const RowMajorReal>(arrays.parameter.data() + step * 2 * orders, 2,
-                                                         static_cast<Eigen::Index>(orders));
-    std::vector<std::vector<int>> modes = modes_of_blocks(arrays, loci, step);
-    for (std::size_t i = 0; i < functions; ++i) {
-      const bool begins = arrays.block[step * functions + i] == static_cast<std::int64_t>(i);
-      require(begins || modes[i].empty(), loci, "mode_block");
-      if (begins) path_step.blocks.push_back(read_block(arrays, loci, step, i, std::move(modes[i])));
-    }
-    loci.steps.push_back(std::move(path_step));
   }
 }
 
@@ -242,11 +126,11 @@ void read_trimmed(const Hdf5File& file, LociFile& loci) {
     trimmed = {name, file.text_attribute(name, "units"), file.text_attribute(name, "long_name"),
                file.read_real(name)};
     require(trimmed.values.size() == loci.n_nodes(), loci, name);
-    require_finite(trimmed.values, loci, name);
+    require_finite(trimmed.values, loci.path, name);
     const std::string series = step_dataset(name);
     require(file.shape(series) == Shape{loci.steps.size(), 2, orders}, loci, series);
     const std::vector<double> data = file.read_real(series);
-    require_finite(data, loci, series);
+    require_finite(data, loci.path, series);
     for (std::size_t step = 0; step < loci.steps.size(); ++step)
       loci.steps[step].trimmed.emplace_back(Eigen::Map<const RowMajorReal>(
           data.data() + step * 2 * orders, 2, static_cast<Eigen::Index>(orders)));
@@ -326,8 +210,8 @@ LociFile loci_in(const Hdf5File& file, const std::string& path) {
     loci.mode_names = file.read_texts("mode_name");
     require(loci.mode_names.size() == loci.modes.size(), loci, "mode_name");
   }
+  static_cast<RecordedPath&>(loci) = read_path(file, loci.parameter, loci.modes.size(), path);
   read_points(file, loci);
-  read_steps(file, loci);
   read_events(file, loci);
   check_points_and_steps(loci);
   loci.ranges = read_stable_ranges(file, loci.modes.size());

@@ -140,7 +140,7 @@ Existing existing_pair(const std::string& first, const std::string& second, bool
                        const std::string& advice) {
   const auto exists = [](const std::string& path) {
     std::error_code error;
-    return std::filesystem::exists(path, error);
+    return std::filesystem::exists(std::filesystem::symlink_status(path, error));
   };
   const bool half =
       exists(first) && !exists(partial_name(first)) && !exists(second) && exists(partial_name(second));

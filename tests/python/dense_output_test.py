@@ -1,4 +1,4 @@
-"""The reader's dense output equals that of `eigentrail eval`, on every scene and where modes are hard to distinguish."""
+"""What `sel` returns is what `eigentrail eval` prints, on every scene and where modes are hard to distinguish."""
 
 import csv
 import io
@@ -7,11 +7,10 @@ import unittest
 
 import eigentrail
 import numpy as np
+import xarray
 
 from families import (THROUGH_INFINITY_ONCE, THROUGH_INFINITY_TWICE, coalescing, oscillators, random_family)
 from program import BIRTH, CROSSING, CROSSING_WITHIN, PUSHED_PENDULUM, SCENES, ProgramTest, each_case, edited
-
-ROUNDING = 1e-12
 
 # Sizes of blocks, and the charts, that the case must have: else it would test less than its name says.
 HARD = [("modes are born", BIRTH, {1, 2}, {0}),
@@ -40,39 +39,26 @@ class AgainstEval(ProgramTest):
         self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
         loci = eigentrail.open(self.folder / "loci.h5")
         parameter = loci.eigentrail.parameter
-        values = self.values(loci, places)
-        found = loci.eigentrail.sel(**{parameter: values}).eigenvalue
-        actual = self.rows(found, parameter)
-        expected = self.printed(values)
-        self.assertEqual([row[:2] for row in actual], [row[:2] for row in expected])
-        for (value, mode, s), (_, _, printed) in zip(actual, expected):
-            if s != printed:  # infinities are equal
-                self.assertLess(abs(s - printed), ROUNDING * max(abs(printed), loci.attrs["reference"]), (value, mode))
+        path = loci[parameter].values
+        values = np.concatenate([np.random.default_rng(1).uniform(path.min(), path.max(), places), path])
+        found = loci.eigentrail.sel(**{parameter: values})
+        printed = list(csv.DictReader(io.StringIO(
+            self.run_well("eval", "loci.h5", "--csv", "--at", *map(repr, map(float, values))))))
+        for name, columns in (("eigenvalue", ("real", "imag")), ("natural_frequency", ("natural_frequency",)),
+                              ("damped_frequency", ("damped_frequency",))):
+            self.assertEqual(self.rows(found[name], parameter), [
+                (float(row["parameter"]), row["mode"], complex(*(float(row[column]) for column in columns))) for row in printed])
         return loci
 
     @staticmethod
-    def values(loci, places):
-        """Random ones and those of the stored points, but for the places where the path turns back: where `eval` lists
-        what lies within rounding of there, too."""
-        path = loci[loci.eigentrail.parameter].values
-        turns = np.sign(np.diff(path))
-        inner = np.concatenate([[True], turns[1:] == turns[:-1], [True]])
-        return np.concatenate([np.random.default_rng(1).uniform(path.min(), path.max(), places), path[inner]])
-
-    @staticmethod
     def rows(found, parameter):
-        """(value, mode, s) in the order in which `eval` prints them."""
+        """Value, mode and what is found there, in the order in which `eval` prints them."""
         if "passage" in found.dims:
             found = found.transpose(parameter, "passage", "mode")
         flat = found.values.reshape(found.sizes[parameter], -1)
         modes = np.tile(found.mode.values, flat.shape[1] // found.sizes["mode"])
         return [(value, mode, s) for value, row in zip(found[parameter].values, flat)
-                for mode, s in zip(modes, row) if not np.isnan(s.real)]
-
-    def printed(self, values):
-        text = self.run_well("eval", "loci.h5", "--csv", "--at", *map(repr, map(float, values)))
-        return [(float(row["parameter"]), row["mode"], complex(float(row["real"]), float(row["imag"])))
-                for row in csv.DictReader(io.StringIO(text))]
+                for mode, s in zip(modes, row) if not np.isnan(s)]
 
 
 @each_case([(path.stem, path) for path in sorted(SCENES.glob("*.toml"))])
@@ -91,6 +77,35 @@ class HardOnes(AgainstEval):
                      for count in np.unique(row[row >= 0], return_counts=True)[1]}
         self.assertEqual({count if count < 3 else round(count**0.5) for count in functions}, sizes)
         self.assertEqual(set(loci.dense_chart.values.ravel().tolist()) - {-1}, charts)
+
+
+class InMemory(AgainstEval):
+    """Datasets that were opened or changed without the package."""
+
+    def setUp(self):
+        super().setUp()
+        self.loci = self.compare(coalescing(3), places=1)
+        self.values = np.linspace(*self.loci.p.values[[0, -1]], 50)
+        self.found = self.loci.eigentrail.sel(p=self.values)
+
+    def test_what_xarray_opens_is_evaluated(self):
+        plain = xarray.load_dataset(self.folder / "loci.h5", engine="h5netcdf")
+        changed = plain.assign(eigenvalue=plain.eigenvalue.astype("complex256"), certified=plain.certified.astype(float),
+                               natural_frequency=plain.frequency)
+        for name in ("eigenvalue", "certified"):
+            np.testing.assert_array_equal(changed.eigentrail.sel(p=self.values)[name], self.found[name])
+
+    def test_some_of_the_modes_of_a_block(self):
+        some = self.loci.isel(mode=[2, 0]).eigentrail.sel(p=self.values)
+        np.testing.assert_array_equal(some.eigenvalue, self.found.eigenvalue[:, [2, 0]])
+
+    def test_what_does_not_fit_is_named(self):
+        for name, change in (("dense_output", {"node": slice(0, 3)}), ("step_length", {})):
+            loci = self.loci.isel(change)
+            if not change:
+                loci["step_length"] = loci.step_length * np.nan
+            with self.assertRaisesRegex(eigentrail.SceneError, f"the Dataset: {name} "):
+                loci.eigentrail.sel(p=self.values)
 
 
 class TurningBack(AgainstEval):

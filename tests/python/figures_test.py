@@ -264,9 +264,10 @@ class Harmonics(FigureTest):
 
     def test_the_margin_of_the_scene_and_that_of_the_standard(self):
         damped = complex(-0.2, 1.0)  # amplification factor 2.55
-        self.assertAlmostEqual(separation.api_margin(damped, True), 0.17 * (1 - 1 / (0.5 / (0.2 / abs(damped)) - 1.5)))
-        self.assertEqual(separation.api_margin(complex(-0.3, 1.0), False), 0.0)
-        self.assertEqual((separation.api_margin(1j, True), separation.api_margin(1j, False)), (0.16, 0.26))
+        standard = separation.Operation([(20.0, 30.0)], None)
+        self.assertAlmostEqual(standard.wanted(damped, True), 0.17 * (1 - 1 / (0.5 / (0.2 / abs(damped)) - 1.5)))
+        self.assertEqual(standard.wanted(complex(-0.3, 1.0), False), 0.0)
+        self.assertEqual((standard.wanted(1j, True), standard.wanted(1j, False)), (0.16, 0.26))
         operation = separation.Operation([(20.0, 30.0), (50.0, 60.0)], 0.1)
         self.assertEqual([operation.is_too_close(p, damped) for p in (17.9, 18.1, 25, 32.9, 33.1, 45.1, 66.1)],
                          [False, True, True, True, False, True, False])
@@ -445,8 +446,8 @@ class PlotCommand(FigureTest):
             ((file, "--kind", "shape", "--view", "top"), ["'3D', 'xy'"]),
             ((file, "--kind", "shape", "--at", "400"), ["--at 400", "from 5 to 100"]),
             ((file, "--kind", "shape", "--at", "100 Hz"), ["--at 100 Hz", "from 5 to 100"]),
-            ((file, "--kind", "shape", "--at", "fast"), ["--at 'fast'", "a number"]),
-            ((file, "--kind", "shape", "--at", "10 m"), ["--at '10 m'", "'rad/s'"]),
+            ((file, "--kind", "shape", "--at", "fast"), ["--at: ", "a number", "fast"]),
+            ((file, "--kind", "shape", "--at", "10 m"), ["--at: 10 m does not fit omega", "rad/s"]),
             ((self.folder / "nothing.h5",), ["nothing.h5: No such file"]),
             ((self.folder / "notes.txt",), ["notes.txt: cannot be read: HDF5 could not open it: it is no HDF5 file"]),
         ]:

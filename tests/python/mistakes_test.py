@@ -237,7 +237,7 @@ RESULTS = [
     (lambda loci, curves: loci.eigentrail.sel(omega="fast"), "omega: expected numbers, found 'fast'"),
     (lambda loci, curves: loci.eigentrail.sel(omega=np.nan), "omega: expected finite numbers"),
     (lambda loci, curves: loci.eigentrail.sel(omega=50, mode="mode 9"), "mode 'mode 9': expected one of 'mode 1', 'mode 2', 'lag', 'flap'"),
-    (lambda loci, curves: loci.eigentrail.save("loci.h5"), "loci.h5: exists; give another name, or overwrite=True"),
+    (lambda loci, curves: loci.eigentrail.save("loci.h5"), "loci.h5: exists already; give another name, or overwrite=True"),
     (lambda loci, curves: loci.eigentrail.save("none/loci.h5"), "none/loci.h5: there is no such folder"),
     (lambda loci, curves: loci.eigentrail.curve(1), "only boundary files have this; the Dataset is of the format 'eigentrail-loci'"),
     (lambda loci, curves: curves.eigentrail.events, "only loci files have this; the Dataset is of the format 'eigentrail-boundary'"),

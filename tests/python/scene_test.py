@@ -182,7 +182,7 @@ class Saving(unittest.TestCase):
         samples, family = et.Samples([0, 1], M=[[1]], K=[[[1]], [[2]]], parameter="p"), et.Family(M=[[1]], K=[[1]], parameter="p")
         for result, name in ((et.trace(FAMILY).eigentrail, "out.h5"), (family, "family.toml"), (samples, "samples.toml")):
             (self.folder / name).write_text("mine")
-            with self.subTest(name), self.assertRaisesRegex(FileExistsError, f"{name}: exists; .*overwrite=True"):
+            with self.subTest(name), self.assertRaisesRegex(FileExistsError, f"{name}: exists already; .*overwrite=True"):
                 result.save(self.folder / name)
             self.assertEqual((self.folder / name).read_text(), "mine")
             self.assertFalse((self.folder / name.replace(".toml", ".h5")).exists() and name != "out.h5")

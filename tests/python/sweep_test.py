@@ -27,12 +27,22 @@ class Sweeps(unittest.TestCase):
             run = swept.eigentrail.runs[(drag,)]
             self.assertTrue(run.assign_attrs(seconds=0).identical(alone.assign_attrs(seconds=0)))  # seconds: the time it took
 
-    def test_what_the_engine_reads_is_what_the_file_holds(self):
-        files = [et.runs.trace_file(BLADE_SCENE, drag=drag).image for drag in (1, 2)]
-        contents = [et.files.read(image, names=et.files.FOR_SELECTION) for image in files]
-        first, other = map(et.files.part, contents)
-        read = et.files.part_like(first, contents[1])
-        self.assertTrue(read.identical(other))
+    def test_what_is_read_by_names_is_what_the_file_holds(self):
+        image = et.runs.trace_file(BLADE_SCENE).image
+        (datasets, attributes), (whole, of_file) = et.files.read(image, names=["events", "eigenvalue", "none"]), et.files.read(image)
+        self.assertEqual(set(datasets), {"events", "eigenvalue", "omega"})
+        self.assertEqual(attributes, of_file)
+        for name, (array, _) in datasets.items():
+            np.testing.assert_array_equal(array, whole[name][0])
+
+    def test_traces_of_different_lengths_are_nan_behind_their_ends(self):
+        """The equilibrium of the second one ends in a fold at p = 0.5."""
+        scene = PUSHED_PENDULUM.replace("p = 0.0", "p = 0.0\npush = 1.0").replace('"p*g"', '"p*push*g"')
+        swept = et.sweep(scene, {"push": [1.0, 2.0]}, points=[0.2, 0.49, 0.51], tolerance=1e-8)
+        self.assertEqual(swept.certified.values[:, :, 0].tolist(), [[1, 1, 1], [1, 1, -1]])
+        push = np.outer([1, 2], swept.p)
+        hanging = np.sqrt(9.81) * np.where(push < 1, 1 - np.minimum(push, 1) ** 2, np.nan) ** 0.25
+        np.testing.assert_allclose(swept.damped_frequency[..., 0], hanging, rtol=1e-6)
 
     def test_two_parameters_give_two_dimensions(self):
         swept = et.sweep(BLADE, {"drag": [1.0, 2.0], "mass": [40.0, 50.0, 60.0]}, points=11, jobs=2)

@@ -95,6 +95,13 @@ TEST_F(OutputFileTest, HalfOfAPairIsReplacedOnlyWhereAKillHasLeftIt) {
   EXPECT_THROW(existing_pair(first, second, false, ""), InputError);
 }
 
+TEST_F(OutputFileTest, ALinkThatLeadsNowhereIsAFileThatIsThere) {
+  EXPECT_EQ(existing_pair(path, path, false, ""), Existing::keep);
+  std::filesystem::create_symlink("none.h5", path);
+  EXPECT_THROW(existing_pair(path, path, false, ""), InputError);
+  EXPECT_EQ(existing_pair(path, path, true, ""), Existing::replace);
+}
+
 TEST_F(OutputFileTest, PermissionsAndLinksOfTheReplacedFileStay) {
   using std::filesystem::perms;
   const std::string link = folder / "link.h5";

@@ -3,8 +3,8 @@
 import numpy as np
 import xarray
 
+from .engine import engine
 from .errors import SceneError
-from .interpolation import TwoPointTaylor
 
 
 def curve(boundary: xarray.Dataset, number: int, points: int) -> xarray.Dataset:
@@ -16,10 +16,9 @@ def curve(boundary: xarray.Dataset, number: int, points: int) -> xarray.Dataset:
         raise SceneError(f"curve {number}: the file has {boundary.sizes['curve']} curves, counted from 0")
     place = np.linspace(0.0, len(steps), points)
     which = np.minimum(place.astype(int), len(steps) - 1)
-    series = boundary.dense_output.values[steps[which]]
-    length = boundary.step_length.values[steps[which]]
-    values = TwoPointTaylor(length[:, np.newaxis], series)((place - which)[:, np.newaxis])
-    first, second, mean, delta = values.T
+    at = steps[which]
+    first, second, mean, delta = engine().boundary_places(
+        boundary.step_length.values[at], boundary.dense_output.values[at], place - which).T
     s = mean + np.sqrt(delta.astype(complex))
     parameters = {name: ("point", column, boundary[name].attrs)
                   for name, column in zip(boundary.parameter.values, (first, second))}

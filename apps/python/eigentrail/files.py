@@ -69,34 +69,6 @@ def read(image: bytes, path: str = "result", names: Sequence[str] = ()) -> Conte
     return engine().read_file(image, path, names)
 
 
-# What the dense output needs, and what a sweep says of a trace.
-FOR_SELECTION = ("step", "mode", "mode_name", "eigenvalue", "frequency", "damped_frequency", "damping_ratio", "certified",
-                 "mode_block", "dense_block", "dense_chart", "step_length", "dense_output", "step_parameter",
-                 "interpolation_error", "digits_error", "mode_shape", "events", "event_parameter", "scene_parameter",
-                 "scene_parameter_unit")
-
-
-def part(contents: Contents) -> xarray.Dataset:
-    """Of a loci file only what `sel` and a sweep need; `contents` are those of FOR_SELECTION."""
-    data = _dataset(contents)
-    data["natural_frequency"] = data.frequency
-    _add_event_kinds(data)
-    return data
-
-
-def part_like(like: xarray.Dataset, contents: Contents) -> xarray.Dataset:
-    """The same, in less time: `like` is that part of a file of the same scene, which has the same names of dimensions and
-    attributes of datasets."""
-    datasets, attributes = contents
-    values = {name: array for name, (array, _) in datasets.items()}
-    values["natural_frequency"] = values["frequency"]
-    values["event_kind"], values["event_modes"] = _event_fields(values["events"])
-    variables = {name: xarray.Variable(like[name].dims, array, like[name].attrs, fastpath=True)
-                 for name, array in values.items()}
-    return xarray.Dataset({name: one for name, one in variables.items() if name not in like.coords},
-                          {name: one for name, one in variables.items() if name in like.coords}, attributes)
-
-
 def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], overwrite: bool = False) -> None:
     """Writes the file that the Dataset was made from; the same bytes. A file that exists is kept, unless `overwrite`."""
     image = data.encoding.get(IMAGE)
@@ -107,14 +79,9 @@ def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], overwrite: 
 
 
 def write(contents: Mapping[str, bytes], overwrite: bool) -> None:
-    """Writes files, each as a whole, in their order. If one of them exists, none is written and FileExistsError is raised, unless
-    `overwrite` or a process was killed after it had written all but the last."""
-    *others, last = contents
-    partial = {path for path in contents if os.path.lexists(f"{path}.partial")}
-    overwrite = overwrite or bool(others) and partial == {last} and not os.path.lexists(last)
+    """Writes one or two files, each as a whole, in their order. If one of them exists, none is written and FileExistsError is
+    raised, unless `overwrite`, or a process was killed after it had written the first of two."""
     for path in contents:
-        if os.path.lexists(path) and not overwrite:
-            raise FileExistsError(f"{path}: exists; give another name, or overwrite=True")
         if os.path.exists(path) and not os.path.isfile(path):
             raise FileExistsError(f"{path}: is no regular file, and is not replaced")
         if not os.path.isdir(os.path.dirname(path) or "."):
@@ -157,13 +124,7 @@ def _add_frequencies(data: xarray.Dataset) -> None:
 
 
 def _add_event_kinds(data: xarray.Dataset) -> None:
-    """Adds `event_kind` and `event_modes`."""
-    kinds, modes = _event_fields(data.events.values)
-    data["event_kind"] = ("event", kinds, {"long_name": "what happens", "units": "1"})
-    data["event_modes"] = ("event", modes, {"long_name": "numbers of the modes", "units": "1"})
-
-
-def _event_fields(lines: Any) -> tuple[Any, Any]:
-    """The first and the last field of the lines in `events`."""
-    words = [line.split(",") for line in lines]
-    return np.array([line[0] for line in words], object), np.array([line[-1] for line in words], object)
+    """Adds `event_kind` and `event_modes`, the first and the last field of the lines in `events`."""
+    words = [line.split(",") for line in data.events.values]
+    for name, field, what in (("event_kind", 0, "what happens"), ("event_modes", -1, "numbers of the modes")):
+        data[name] = ("event", np.array([line[field] for line in words], object), {"long_name": what, "units": "1"})

@@ -11,8 +11,8 @@ import os
 import sys
 
 from . import files
+from .engine import engine
 from .figures import planes, shapes, studies, trace_figures, with_matplotlib
-from .figures.style import ANGULAR
 from .version import __version__
 
 KINDS = {"campbell": "loci", "root-locus": "loci", "damping": "loci", "shape": "loci", "plane": "map or boundary",
@@ -94,28 +94,14 @@ def _refuse_useless(options, kind):
 
 def _place(loci, at):
     """The value of the parameter at which a shape is drawn: by default where the trace begins."""
-    values = loci[loci.attrs["parameter"]].values
+    name = loci.attrs["parameter"]
+    values = loci[name].values
     if at is None:
         return float(values[0])
-    value = _with_unit(at, loci[loci.attrs["parameter"]].attrs.get("units", "1"))
+    value = engine().option_value("--at", at, name, loci[name].attrs.get("units", "1"))
     if not values.min() <= value <= values.max():
-        raise BadInput(f"--at {at}: {loci.attrs['parameter']} was traced from {values.min():.15g} to {values.max():.15g}")
+        raise BadInput(f"--at {at}: {name} was traced from {values.min():.15g} to {values.max():.15g}")
     return value
-
-
-def _with_unit(text, unit):
-    """A value in the unit of the parameter: "40", or "100 rpm" where both are angular velocities or frequencies."""
-    number, _, own = text.strip().partition(" ")
-    try:
-        value = float(number)
-    except ValueError:
-        raise BadInput(f"--at {text!r}: expected a number") from None
-    own = own.strip()
-    if own in ("", unit):
-        return value
-    if own not in ANGULAR or unit not in ANGULAR:
-        raise BadInput(f"--at {text!r}: the unit of the parameter is {unit!r}, which {own!r} does not fit")
-    return value * ANGULAR[own] / ANGULAR[unit]
 
 
 def _suffix(path):

@@ -202,15 +202,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     if faults and not found["rows"]:
         raise TraceError(f"{given.scene.path}: {'; '.join(faults)}")
     _tell(given.warnings + faults)
-    table = pandas.DataFrame([{key: value for key, value in row.items() if key != "mode_shape"} for row in found["rows"]])
-    if table.empty:
-        return table
-    s = _without_rounding(table["eigenvalue"].to_numpy(complex), table["rounding"].to_numpy(float))
-    with np.errstate(invalid="ignore"):
-        ratio = -s.real / np.abs(s)
-    table.insert(3, "natural_frequency", np.abs(s))
-    table.insert(4, "damped_frequency", np.abs(s.imag))
-    table.insert(5, "damping_ratio", ratio)
+    table = pandas.DataFrame(found["rows"])
     return table.rename(columns={"parameter": given.scene.traced or next(iter(given.ranges), "parameter")})
 
 
@@ -293,12 +285,6 @@ def _begin(given: Given) -> float:
         if name == given.scene.traced:
             return float(value)
     raise SceneError("expected at=, the value of the parameter")
-
-
-def _without_rounding(s: Any, rounding: Any) -> Any:
-    """Eigenvalues that are zero, or have a real part of zero, where these are within rounding, as the program shows them."""
-    known = np.where(np.isfinite(rounding), rounding, 0.0)
-    return np.where(np.abs(s) <= known, 0.0, np.where(np.abs(s.real) <= known, 1j * s.imag, s))
 
 
 def _result(given: Given, outcome: Any) -> xarray.Dataset:

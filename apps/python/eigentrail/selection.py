@@ -3,11 +3,37 @@
 import numpy as np
 import xarray
 
-from .dense_output import DenseOutput
+from .engine import engine
 from .errors import SceneError
 
+# Datasets that hold the path of a trace, beside that of the parameter.
+OF_PATH: tuple[str, ...] = ("eigenvalue", "step_length", "step_parameter", "dense_output", "dense_block", "dense_chart",
+                            "mode_block", "certified")
 # Bounds of the errors of eigenvalues that come from the data, per step and mode; only for sampled families.
 DATA_ERRORS = ("interpolation_error", "digits_error")
+
+
+def path_of(arrays, parameter):
+    """The points of a trace and its dense output, in the engine; `arrays` has the datasets of a loci file by their names."""
+    return engine().Path({name: np.asarray(arrays[name]) for name in (parameter, *OF_PATH)}, parameter)
+
+
+def evaluated(path, certified, values):
+    """Steps, eigenvalues and whether these are certified at all places with values (n) of the parameter.
+
+    Steps (n, passage), -1 where a value has fewer places; the others (n, passage, mode). `certified` (step, mode): 1 or 0, or -1
+    where a mode does not exist. At the end of a step, a mode that begins there has the value of the next step."""
+    step, t = path.places(values)
+    flags = np.vstack([certified, np.full(certified.shape[1], -1)])  # the last row: of no step
+    begins = (t == 1.0)[..., np.newaxis] & (flags[step] == -1)
+    return step, path.evaluate(step, t)[0], np.where(begins, flags[step + 1], flags[step])
+
+
+def columns_of(s, certified):
+    """What `sel` says of eigenvalues."""
+    with np.errstate(invalid="ignore"):
+        return {"eigenvalue": s, "frequency": np.abs(s), "natural_frequency": np.abs(s), "damped_frequency": np.abs(s.imag),
+                "damping_ratio": -s.real / np.abs(s), "certified": certified}
 
 
 class Selection:
@@ -18,26 +44,18 @@ class Selection:
         self._parameter = loci[loci.attrs["parameter"]]
         if not loci.sizes["step"]:
             raise SceneError("the trace has no steps: there is nothing to evaluate between points")
-        self._dense_output = DenseOutput(loci)
+        self._path = path_of(loci, self._parameter.name)
 
     def at(self, wanted):
         """Dataset at these values: along their dimension (none for a number), `passage` if the path turns back, and
         `mode`."""
         dimension, values = self._indexer(wanted)
-        which, step, t = self._dense_output.path.positions(values)
-        self._refuse_missing(values, which)
-        passage = np.arange(len(which)) - np.searchsorted(which, which)
-        shape = (len(values), passage.max(initial=0) + 1, self._loci.sizes["mode"])
-        s = np.full(shape, complex(np.nan, np.nan))
-        certified = np.full(shape, -1)
-        s[which, passage] = self._dense_output.at(step, t)
-        certified[which, passage] = self._dense_output.certified_at(step, t)
-        errors = {name: np.full(shape, np.nan) for name in DATA_ERRORS if name in self._loci}
-        for name, column in errors.items():
-            column[which, passage] = self._loci[name].values[step]
-            column[np.isnan(s)] = np.nan
-        found = self._dataset(s, certified, errors, dimension or "place", values)
-        if not self._dense_output.path.turns_back:
+        step, s, certified = evaluated(self._path, self._loci.certified.values, values)
+        self._refuse_missing(values, step)
+        errors = {name: np.where(np.isnan(s), np.nan, self._loci[name].values[step])
+                  for name in DATA_ERRORS if name in self._loci}
+        found = self._dataset({**columns_of(s, certified), **errors}, dimension or "place", values)
+        if not self._path.turns_back:
             found = found.isel(passage=0, drop=True)
         return found if dimension else found.isel(place=0)
 
@@ -55,25 +73,22 @@ class Selection:
         dimension = None if values.ndim == 0 else wanted.dims[0] if of_its_own else self._parameter.name
         return dimension, np.atleast_1d(values)
 
-    def _refuse_missing(self, values, which):
-        missing = np.setdiff1d(np.arange(len(values)), which)
+    def _refuse_missing(self, values, step):
+        missing = values[step[:, 0] < 0]
         if len(missing):
             name, path = self._parameter.name, self._parameter.values
             unit = self._parameter.attrs["units"]
-            raise SceneError(f"{name} = {values[missing[0]]:.15g} lies outside the traced range "
+            raise SceneError(f"{name} = {missing[0]:.15g} lies outside the traced range "
                              f"{path.min():.15g} ... {path.max():.15g}{'' if unit == '1' else ' ' + unit}")
 
-    def _dataset(self, s, certified, errors, dimension, values):
+    def _dataset(self, columns, dimension, values):
         loci = self._loci
-        with np.errstate(invalid="ignore"):
-            columns = {"eigenvalue": s, "frequency": np.abs(s), "natural_frequency": np.abs(s),
-                       "damped_frequency": np.abs(s.imag), "damping_ratio": -s.real / np.abs(s),
-                       "certified": certified, **errors}
         dims = (dimension, "passage", "mode")
+        passages = columns["eigenvalue"].shape[1]
         labels = {name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}
         return xarray.Dataset(
             {name: (dims, column, loci[name].attrs) for name, column in columns.items()},
             coords={self._parameter.name: (dimension, values, self._parameter.attrs),
-                    "passage": ("passage", np.arange(s.shape[1]),
+                    "passage": ("passage", np.arange(passages),
                                 {"long_name": "how often the path has taken the value before", "units": "1"}), **labels},
             attrs={"title": loci.attrs["title"]})

@@ -15,13 +15,16 @@ from .engine import engine
 from .errors import SceneError, TraceError
 from .given import Source, within
 from .progress import Bar, Progress
-from .files import FOR_SELECTION, part, part_like, read
+from .files import read
 from .runs import Run, trace_file
+from .selection import OF_PATH, columns_of, evaluated, path_of
 
 RUNS = "eigentrail_runs"  # key of a Dataset's encoding: the Datasets of the single traces
 # Weight of the distance of loci beside modal assurance, both from 0 to 1: it decides where shapes are alike to a percent.
 TIE = 0.01
 COLUMNS = ("eigenvalue", "natural_frequency", "damped_frequency", "damping_ratio", "certified")
+# What is read of a trace.
+DATASETS = (*OF_PATH, "mode_shape", "events", "event_parameter")
 
 
 @checked
@@ -60,37 +63,31 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
     if both:
         raise SceneError(f"{both[0]}: is swept, and has a value of its own; give one of them")
     places = list(itertools.product(*values.values()))
-    runs = _run_all(scene, names, places, how, points, jobs or os.cpu_count() or 1, progress)
-    for remark in dict.fromkeys(remark for run in runs for remark in run.remarks):
+    runs = _run_all(scene, names, places, how, jobs or os.cpu_count() or 1, progress)
+    for remark in dict.fromkeys(remark for run in runs if isinstance(run, _Traced) for remark in run.run.remarks):
         warnings.warn(remark, stacklevel=2)
     return _together(names, values, places, runs, points)
 
 
 class _Traced:
-    """A trace of a sweep, or the error that kept it from beginning."""
+    """A trace of a sweep, of which DATASETS are read."""
 
-    def __init__(self, run: Any, contents: Any, like: Optional["_Traced"], points: Any):
+    def __init__(self, run: Run):
         self.run = run
-        self.remarks: list[str] = run.remarks if isinstance(run, Run) else []
-        self.loci: Optional[xarray.Dataset] = None
-        if isinstance(run, Run):
-            known = None if like is None else like.loci
-            self.loci = part(contents) if known is None else part_like(known, contents)
-        self._values: Any = None  # at which the loci were evaluated: for most sweeps those of the first trace are common
-        self._part: Optional[xarray.Dataset] = None
-        if self.loci is not None:
-            self.at(like._values if like is not None else _common_values([self.loci], self.loci.attrs["parameter"], points))
+        contents, self.attrs = read(run.image, names=DATASETS)
+        self.arrays = {name: array for name, (array, _) in contents.items()}
+        self._path = path_of(self.arrays, self.attrs["parameter"])
 
-    def at(self, values: Any) -> Optional[xarray.Dataset]:
-        """The loci at values of the traced parameter; None if nothing was traced."""
-        if self.loci is not None and (self._part is None or not np.array_equal(values, self._values)):
-            self._values, self._part = values, _at(self.loci, self.loci.attrs["parameter"], values)
-        return self._part
+    def at(self, values: Any) -> dict[str, Any]:
+        """COLUMNS at values of the traced parameter, (value, mode) each: NaN where it has not been, at the first of several
+        places with a value."""
+        _, s, certified = evaluated(self._path, self.arrays["certified"], values)
+        return columns_of(s[:, 0], certified[:, 0])
 
 
-def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ...]], how: Mapping[str, Any], points: Any,
-             jobs: int, progress: Progress) -> list[_Traced]:
-    """Per place its trace. The first ones are read and evaluated while others run."""
+def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ...]], how: Mapping[str, Any],
+             jobs: int, progress: Progress) -> list[Any]:
+    """Per place its trace, or the error that kept it from beginning."""
     stopped = False
 
     def go_on(share: float, count: int) -> None:
@@ -102,17 +99,15 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             settings: Any = {**how.get("settings", {}), **dict(zip(names, place))}
             traced = trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
         except TraceError as error:
-            return error, None
-        return traced, read(traced.image, names=FOR_SELECTION)
+            return error
+        return _Traced(traced)
 
     with ThreadPoolExecutor(jobs) as pool, Bar(progress, "sweep") as show:
         futures: list[Future[Any]] = [pool.submit(run, place) for place in places]
         try:
-            found: list[_Traced] = []
+            found = []
             for done, future in enumerate(futures):
-                first = next((one for one in found if one.loci is not None), None)
-                run_here, contents = future.result()
-                found.append(_Traced(run_here, contents, first, points))
+                found.append(future.result())
                 if show is not None:
                     show((done + 1) / len(futures), done + 1)
             return found
@@ -141,41 +136,41 @@ class Runs(Mapping[tuple[Any, ...], Any]):
 
 
 def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places: Sequence[tuple[Any, ...]],
-              runs: Sequence[_Traced], points: Any) -> xarray.Dataset:
-    loci = [run.loci for run in runs if run.loci is not None]
-    if not loci:
-        raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0].run}")
-    parameter = loci[0].attrs["parameter"]
+              runs: Sequence[Any], points: Any) -> xarray.Dataset:
+    traced = [run for run in runs if isinstance(run, _Traced)]
+    if not traced:
+        raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0]}")
+    loci = traced[0].run.loci()
+    parameter = loci.attrs["parameter"]
     if parameter in names:
         raise SceneError(f"{parameter}: is the traced parameter; give it a range, {parameter}=(from, to), and sweep others")
-    at = _common_values(loci, parameter, points)
-    parts = [run.at(at) for run in runs]
-    n_modes = max(part.sizes["mode"] for part in parts if part is not None)
+    at = _common_values([run.arrays[parameter] for run in traced], points)
+    parts = [run.at(at) if isinstance(run, _Traced) else None for run in runs]
+    n_modes = max(part["eigenvalue"].shape[1] for part in parts if part is not None)
     shape = tuple(len(values[name]) for name in names)
     order = _orders(shape, runs, parts, n_modes)
-    coordinates = {name: _coordinate(name, values[name], loci[0]) for name in names}
-    coordinates[parameter] = (parameter, at, loci[0][parameter].attrs)
+    coordinates = {name: _coordinate(name, values[name], loci) for name in names}
+    coordinates[parameter] = (parameter, at, loci[parameter].attrs)
     coordinates["mode"] = ("mode", np.array([f"mode {i + 1}" for i in range(n_modes)], object))
-    data = xarray.Dataset(coords=coordinates, attrs={"title": loci[0].attrs["title"], "parameter": parameter,
-                                                     "scene": loci[0].attrs["scene"]})
+    data = xarray.Dataset(coords=coordinates, attrs={"title": loci.attrs["title"], "parameter": parameter,
+                                                     "scene": loci.attrs["scene"]})
     for column in COLUMNS:
         whole = np.stack([_column(part, column, order[i], at.size, n_modes) for i, part in enumerate(parts)])
-        data[column] = ((*names, parameter, "mode"), whole.reshape(*shape, at.size, n_modes), loci[0][column].attrs)
+        data[column] = ((*names, parameter, "mode"), whole.reshape(*shape, at.size, n_modes), loci[column].attrs)
     for name, of_run in (("flutter", _first_flutter), ("status", _status), ("message", _message)):
         data[name] = (names, np.array([of_run(run) for run in runs]).reshape(shape))
-    data["flutter"].attrs = dict(loci[0][parameter].attrs, long_name="first flutter")
+    data["flutter"].attrs = dict(loci[parameter].attrs, long_name="first flutter")
     data["least_damping"] = data["damping_ratio"].min([parameter, "mode"]).assign_attrs(
         long_name="least damping ratio", units="1")
-    data.encoding[RUNS] = Runs(places, [run.run for run in runs])
+    data.encoding[RUNS] = Runs(places, [run.run if isinstance(run, _Traced) else run for run in runs])
     return data
 
 
-def _common_values(loci: Sequence[xarray.Dataset], parameter: str, points: Any) -> Any:
+def _common_values(paths: Sequence[Any], points: Any) -> Any:
     if np.ndim(points) > 0:
         return np.asarray(points, float)
-    ends = [(run[parameter].values[0], run[parameter].values[-1]) for run in loci]
-    longest = max(ends, key=lambda pair: abs(pair[1] - pair[0]))
-    return np.linspace(*longest, int(points))
+    longest = max(paths, key=lambda path: abs(path[-1] - path[0]))
+    return np.linspace(longest[0], longest[-1], int(points))
 
 
 def _coordinate(name: str, values: Sequence[Any], loci: xarray.Dataset) -> tuple[Any, ...]:
@@ -185,28 +180,16 @@ def _coordinate(name: str, values: Sequence[Any], loci: xarray.Dataset) -> tuple
             {} if texts else {"units": units.get(name, "1")})
 
 
-def _at(run: xarray.Dataset, parameter: str, at: Any) -> xarray.Dataset:
-    """The loci at the values that the trace has reached, NaN elsewhere; of a path that turns back, the first passage."""
-    path = run[parameter].values
-    reached = at[(at >= path.min()) & (at <= path.max())]
-    found = run.eigentrail.sel(**{parameter: reached})
-    if "passage" in found.dims:
-        found = found.isel(passage=0)
-    return found.reindex({parameter: at}, fill_value={"certified": -1})
-
-
-def _orders(shape: tuple[int, ...], runs: Sequence[_Traced], parts: Sequence[Any], n_modes: int) -> list[Any]:
+def _orders(shape: tuple[int, ...], runs: Sequence[Any], parts: Sequence[Any], n_modes: int) -> list[Any]:
     """Per trace the number of its mode that is the i-th one: that which resembles the i-th one of the trace before it, along
     the last dimension and at its start along the one before."""
     order: list[Any] = []
     for i, part in enumerate(parts):
         before = _before(i, shape)
-        there = None if before is None else runs[before].loci
-        here = runs[i].loci
-        if before is None or there is None or here is None:
+        if before is None or parts[before] is None or part is None:
             order.append(np.arange(n_modes))
             continue
-        unlike = 1.0 - _assurance(there, here, n_modes)[order[before]]
+        unlike = 1.0 - _assurance(runs[before], runs[i], n_modes)[order[before]]
         order.append(_assignment(unlike + TIE * _distance(parts[before], order[before], part, n_modes)))
     return order
 
@@ -220,10 +203,10 @@ def _before(i: int, shape: tuple[int, ...]) -> Optional[int]:
     return None
 
 
-def _assurance(before: xarray.Dataset, run: xarray.Dataset, n_modes: int) -> Any:
+def _assurance(before: _Traced, run: _Traced, n_modes: int) -> Any:
     """Modal assurance of the modes where the traces begin, n_modes x n_modes; one half for modes that come later."""
     result = np.full((n_modes, n_modes), 0.5)
-    there, here = before.mode_shape.values[0], run.mode_shape.values[0]
+    there, here = before.arrays["mode_shape"][0], run.arrays["mode_shape"][0]
     if there.shape[-1] != here.shape[-1]:
         return result
     square = np.abs(there.conj() @ here.T) ** 2
@@ -254,22 +237,22 @@ def _column(part: Any, column: str, order: Any, count: int, n_modes: int) -> Any
     fill: Any = {"eigenvalue": complex(np.nan, np.nan), "certified": -1}.get(column, np.nan)
     if part is None:
         return np.full((count, n_modes), fill)
-    values = part[column].values
+    values = part[column]
     whole = np.full((values.shape[0], n_modes), fill)
     whole[:, :values.shape[1]] = values
     return whole[:, order]
 
 
-def _first_flutter(run: _Traced) -> float:
-    if run.loci is None:
+def _first_flutter(run: Any) -> float:
+    if not isinstance(run, _Traced):
         return np.nan
-    flutter = np.flatnonzero(run.loci.event_kind.values == "flutter")
-    return float(run.loci.event_parameter.values[flutter[0]]) if len(flutter) else np.nan
+    flutter = [line.startswith("flutter,") for line in run.arrays["events"]]
+    return float(run.arrays["event_parameter"][flutter.index(True)]) if any(flutter) else np.nan
 
 
-def _status(run: _Traced) -> str:
-    return "not traced" if run.loci is None else str(run.loci.attrs["status"])
+def _status(run: Any) -> str:
+    return str(run.attrs["status"]) if isinstance(run, _Traced) else "not traced"
 
 
-def _message(run: _Traced) -> str:
-    return str(run.run) if run.loci is None else str(run.loci.attrs.get("message", ""))
+def _message(run: Any) -> str:
+    return str(run.attrs.get("message", "")) if isinstance(run, _Traced) else str(run)

@@ -47,5 +47,6 @@ void add_scenes(pybind11::module_& module);
 void add_runs(pybind11::module_& module);
 void add_points(pybind11::module_& module);
 void add_files(pybind11::module_& module);
+void add_paths(pybind11::module_& module);
 
 }  // namespace eigentrail::python

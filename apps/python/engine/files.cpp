@@ -108,13 +108,25 @@ std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::strin
   return {result, as_python(attributes)};
 }
 
-/// Writes bytes to paths, as write_durably does. Errors of the system become OSError.
+/// Whether the files may be replaced, as existing_pair says; FileExistsError where one of them is to be kept.
+Existing existing(const std::vector<NewFile>& files, bool overwrite) {
+  try {
+    return existing_pair(files.front().path, files.back().path, overwrite,
+                         "give another name, or overwrite=True");
+  } catch (const InputError& error) {
+    PyErr_SetObject(PyExc_FileExistsError, as_text(error.what()).ptr());
+    throw py::error_already_set();
+  }
+}
+
+/// Writes bytes to one or two paths, as write_durably does. Errors of the system become OSError.
 void write_files(const std::vector<std::pair<std::string, py::bytes>>& contents, bool overwrite) {
   std::vector<NewFile> files;
   for (const auto& [path, bytes] : contents) files.push_back({path, {std::string_view(bytes)}});
+  const Existing treated = existing(files, overwrite);
   try {
     const py::gil_scoped_release released;
-    write_durably(files, overwrite ? Existing::replace : Existing::keep);
+    write_durably(files, treated);
   } catch (const std::system_error& error) {
     errno = error.code().value();
     PyErr_SetFromErrnoWithFilename(PyExc_OSError, contents.front().first.c_str());
@@ -130,7 +142,7 @@ void add_files(py::module_& module) {
   module.def("import_formats", &formats);
   module.def("read_file", &read_file, py::arg("image"), py::arg("called"), py::arg("names"));
   module.def("write_files", &write_files, py::arg("contents"), py::arg("overwrite"));
-  module.def("drawing_data", &drawing_data, py::arg("path"), py::arg("node"),
+  module.def("drawing_data", &drawing_data, py::arg("loci_file"), py::arg("node"),
              py::call_guard<py::gil_scoped_release>());
 }
 

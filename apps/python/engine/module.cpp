@@ -56,4 +56,5 @@ PYBIND11_MODULE(_engine, module) {
   eigentrail::python::add_runs(module);
   eigentrail::python::add_points(module);
   eigentrail::python::add_files(module);
+  eigentrail::python::add_paths(module);
 }

@@ -1,3 +1,4 @@
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -7,6 +8,7 @@
 
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
+#include "eigentrail/continuation/operating_range.hpp"
 #include "eigentrail/continuation/sensitivities.hpp"
 #include "eigentrail/explain.hpp"
 #include "eigentrail/projection/project.hpp"
@@ -30,11 +32,9 @@ TraceSetup prepare_at(const Scene& scene, const Options& options, const std::vec
 py::dict spectrum(const Scene& scene, const Options& options, const std::vector<double>& values) {
   std::vector<OperatingPoint> points;
   std::vector<std::optional<Matrix>> errors;
-  std::vector<std::string> coordinates;
   unlocked([&] {
     const TraceSetup setup = prepare_at(scene, options, values);
     points = operating_points(setup, values);
-    coordinates = setup.model->description().coordinate_names;
     for (const OperatingPoint& point : points)
       errors.push_back(data_errors_at(*setup.model, setup.options, point));
   });
@@ -43,9 +43,11 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
     if (!points[k].fault.empty()) faults.append(py::make_tuple(points[k].p, points[k].fault));
     for (std::size_t i = 0; i < points[k].modes.size(); ++i) {
       const OperatingMode& mode = points[k].modes[i];
+      const Complex s = without_rounding(mode);
       py::dict row("parameter"_a = points[k].p, "mode"_a = i + 1, "eigenvalue"_a = mode.s,
-                   "what_moves"_a = mode.what_moves, "condition"_a = mode.condition,
-                   "rounding"_a = mode.rounding, "mode_shape"_a = mode.shape);
+                   "natural_frequency"_a = std::abs(s), "damped_frequency"_a = std::abs(s.imag()),
+                   "damping_ratio"_a = -s.real() / std::abs(s), "what_moves"_a = mode.what_moves,
+                   "condition"_a = mode.condition, "rounding"_a = mode.rounding);
       if (errors[k]) {
         row["interpolation_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 0);
         row["digits_error"] = (*errors[k])(static_cast<Eigen::Index>(i), 1);
@@ -53,7 +55,7 @@ py::dict spectrum(const Scene& scene, const Options& options, const std::vector<
       rows.append(row);
     }
   }
-  return py::dict("rows"_a = rows, "faults"_a = faults, "coordinates"_a = coordinates);
+  return py::dict("rows"_a = rows, "faults"_a = faults);
 }
 
 /// Derivatives of the eigenvalues with respect to all parameters that are not derived, at one value of the
@@ -92,6 +94,15 @@ std::string explanation(const Scene& scene, const Options& options, bool sensiti
   return taken();
 }
 
+/// Whether a critical speed keeps less than its margin from one of the ranges, or lies within it.
+bool is_too_close(const std::vector<std::pair<double, double>>& ranges, const std::optional<double>& margin,
+                  double speed, Complex s) {
+  OperatingRanges operating{{}, margin};
+  for (const auto& [from, to] : ranges) operating.ranges.push_back({from, to});
+  const std::optional<Separation> found = separation(operating, speed, s);
+  return found && found->is_too_close();
+}
+
 }  // namespace
 
 void add_points(py::module_& module) {
@@ -99,6 +110,11 @@ void add_points(py::module_& module) {
   module.def("explain", &explanation, py::arg("scene"), py::arg("options"), py::arg("sensitivity"));
   module.def("sensitivities", &sensitivities, py::arg("scene"), py::arg("options"), py::arg("value"),
              py::arg("guess"));
+  module.def("is_too_close", &is_too_close, py::arg("ranges"), py::arg("margin"), py::arg("speed"),
+             py::arg("s"));
+  module.def(
+      "api_margin", [](Complex s, bool below) { return api_margin(amplification_factor(s), below); },
+      py::arg("s"), py::arg("below"));
 }
 
 }  // namespace eigentrail::python

@@ -97,11 +97,24 @@ Outcome run_trace(const Scene& scene, const Options& options, const std::optiona
   return outcome;
 }
 
-Outcome run_boundary(const Scene& scene, const BoundaryRequest& request, const py::object& progress) {
+/// The file that `work` computes, unless it was stopped.
+template <class Work>
+Outcome computed(const py::object& progress, Work&& work) {
   Watch watch(progress);
   Outcome outcome;
-  const std::string file = watched(watch, [&] {
-    const BoundarySetup setup = prepare_boundary(scene, request);
+  const std::string file = watched(watch, [&]() -> std::string { return work(watch, outcome); });
+  outcome.file = py::bytes(file);
+  return outcome;
+}
+
+Outcome run_boundary(const Scene& scene, const std::string& second, double from, double to,
+                     const std::optional<std::string>& parameter, std::optional<double> first_from,
+                     std::optional<double> first_to, std::optional<double> tolerance,
+                     std::optional<double> damping_ratio, std::optional<int> lines,
+                     const py::object& progress) {
+  return computed(progress, [&](Watch& watch, Outcome& outcome) {
+    const BoundarySetup setup = prepare_boundary(
+        scene, {second, from, to, parameter, first_from, first_to, tolerance, damping_ratio, lines});
     outcome.remarks = remarks_on(setup.scene, *setup.model);
     check_boundary_names(setup.scene, setup.options);
     const BoundaryResult result = find_boundaries(
@@ -109,48 +122,38 @@ Outcome run_boundary(const Scene& scene, const BoundaryRequest& request, const p
     if (result.status != BoundaryStatus::completed) outcome.message = result.message;
     return result.status == BoundaryStatus::no_equilibrium ? "" : boundary_file(setup, result);
   });
-  outcome.file = py::bytes(file);
-  return outcome;
 }
 
-Outcome run_map(const Scene& scene, const Options& options, const MapOptions& window,
-                const py::object& progress) {
-  Watch watch(progress);
-  Outcome outcome;
-  const std::string file = watched(watch, [&] {
-    const MapSetup setup = prepare_map(scene, options, window);
+Outcome run_map(const Scene& scene, const Options& options, const std::string& second, double from, double to,
+                int n_second, int n_first, int jobs, const py::object& progress) {
+  return computed(progress, [&](Watch& watch, Outcome& outcome) {
+    const MapSetup setup = prepare_map(scene, options, {second, from, to, n_second, n_first, jobs});
     outcome.remarks = remarks_on(setup.trace.scene, *setup.trace.model);
     check_map_names(setup);
-    const StabilityMap map = stability_map(
-        setup, [&](int lines) { watch.require(static_cast<double>(lines) / window.n_second, lines); });
+    const StabilityMap map =
+        stability_map(setup, [&](int lines) { watch.require(static_cast<double>(lines) / n_second, lines); });
     return map_file(setup, map);
   });
-  outcome.file = py::bytes(file);
-  return outcome;
 }
 
-Outcome run_accuracy(const Scene& scene, const Options& options, const StudyOptions& study_options,
+Outcome run_accuracy(const Scene& scene, const Options& options, const std::vector<double>& tolerances,
+                     const std::vector<int>& orders, const std::vector<int>& grids, int samples, int repeat,
                      const py::object& progress) {
+  const StudyOptions study_options{tolerances, orders, grids, samples, repeat};
   std::string faults;
   for (const std::string& fault : find_faults(study_options)) faults += (faults.empty() ? "" : "; ") + fault;
   if (!faults.empty()) throw InputError(faults);
-  Watch watch(progress);
-  Outcome outcome;
-  const std::string file = watched(watch, [&]() -> std::string {
+  return computed(progress, [&](Watch& watch, Outcome& outcome) -> std::string {
     TraceSetup setup = prepare_trace(scene, options);
     outcome.remarks = remarks_on(setup.scene, *setup.model);
     project_if_large(setup.model, setup.options);
     const Study study = accuracy_study(setup, study_options, [&](int done, int all) {
       watch.require(static_cast<double>(done) / all, done);
     });
-    if (study.reference.samples.empty()) {
-      outcome.message = setup.scene.path + ": no reference could be computed anywhere on the range";
-      return "";
-    }
-    return study_file(setup, study_options, study);
+    if (!study.reference.samples.empty()) return study_file(setup, study_options, study);
+    outcome.message = setup.scene.path + ": no reference could be computed anywhere on the range";
+    return "";
   });
-  outcome.file = py::bytes(file);
-  return outcome;
 }
 
 }  // namespace
@@ -162,47 +165,19 @@ void add_runs(py::module_& module) {
       .def_readonly("interrupted", &Outcome::interrupted)
       .def_readonly("remarks", &Outcome::remarks);
   py::class_<FunctionSource>(module, "FunctionSource")
-      .def(py::init([](py::function call, double tolerance, int max_calls, double resolution,
-                       std::vector<double> breaks, std::vector<std::string> state_names) {
-             return FunctionSource{std::move(call), tolerance,         max_calls,
-                                   resolution,      std::move(breaks), std::move(state_names)};
-           }),
+      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>(),
            py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("resolution"),
            py::arg("breaks"), py::arg("state_names"));
   module.def("trace", &run_trace, py::arg("scene"), py::arg("options"), py::arg("function"),
              py::arg("threads"), py::arg("progress"));
-  module.def(
-      "boundary",
-      [](const Scene& scene, const std::string& second, double from, double to,
-         std::optional<std::string> parameter, std::optional<double> first_from,
-         std::optional<double> first_to, std::optional<double> tolerance, std::optional<double> damping_ratio,
-         std::optional<int> lines, const py::object& progress) {
-        return run_boundary(
-            scene,
-            {second, from, to, std::move(parameter), first_from, first_to, tolerance, damping_ratio, lines},
-            progress);
-      },
-      py::arg("scene"), py::arg("second"), py::arg("second_from"), py::arg("second_to"), py::arg("parameter"),
-      py::arg("first_from"), py::arg("first_to"), py::arg("tolerance"), py::arg("damping_ratio"),
-      py::arg("lines"), py::arg("progress"));
-  module.def(
-      "stability_map",
-      [](const Scene& scene, const Options& options, const std::string& second, double from, double to,
-         int n_second, int n_first, int jobs, const py::object& progress) {
-        return run_map(scene, options, {second, from, to, n_second, n_first, jobs}, progress);
-      },
-      py::arg("scene"), py::arg("options"), py::arg("second"), py::arg("second_from"), py::arg("second_to"),
-      py::arg("n_second"), py::arg("n_first"), py::arg("jobs"), py::arg("progress"));
-  module.def(
-      "accuracy",
-      [](const Scene& scene, const Options& options, std::vector<double> tolerances, std::vector<int> orders,
-         std::vector<int> grids, int samples, int repeat, const py::object& progress) {
-        return run_accuracy(scene, options,
-                            {std::move(tolerances), std::move(orders), std::move(grids), samples, repeat},
-                            progress);
-      },
-      py::arg("scene"), py::arg("options"), py::arg("tolerances"), py::arg("orders"), py::arg("grids"),
-      py::arg("samples"), py::arg("repeat"), py::arg("progress"));
+  module.def("boundary", &run_boundary, py::arg("scene"), py::arg("second"), py::arg("second_from"),
+             py::arg("second_to"), py::arg("parameter"), py::arg("first_from"), py::arg("first_to"),
+             py::arg("tolerance"), py::arg("damping_ratio"), py::arg("lines"), py::arg("progress"));
+  module.def("stability_map", &run_map, py::arg("scene"), py::arg("options"), py::arg("second"),
+             py::arg("second_from"), py::arg("second_to"), py::arg("n_second"), py::arg("n_first"),
+             py::arg("jobs"), py::arg("progress"));
+  module.def("accuracy", &run_accuracy, py::arg("scene"), py::arg("options"), py::arg("tolerances"),
+             py::arg("orders"), py::arg("grids"), py::arg("samples"), py::arg("repeat"), py::arg("progress"));
 }
 
 }  // namespace eigentrail::python

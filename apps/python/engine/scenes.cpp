@@ -2,6 +2,7 @@
 
 #include "eigentrail/scene/settings.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
+#include "eigentrail/values.hpp"
 #include "engine.hpp"
 
 namespace py = pybind11;
@@ -70,6 +71,15 @@ void add_scenes(py::module_& module) {
   module.def("parse_scene", &parse, py::arg("text"), py::arg("path"),
              py::arg("files") = std::map<std::string, py::bytes>{},
              py::arg("matrices") = std::map<std::string, Arrays>{}, py::arg("generated") = false);
+  // What the program says of an option stays as it is: a ValueError.
+  module.def("option_value", [](const std::string& option, const std::string& text, const std::string& name,
+                                const std::string& unit) {
+    try {
+      return app::read_value(option, text, app::parameter_of_file(name, unit));
+    } catch (const InputError& error) {
+      throw py::value_error(error.what());
+    }
+  });
   module.def("suggestion", [](const std::string& name, const std::vector<std::string>& known) {
     return suggestion(name, known);
   });

@@ -19,6 +19,9 @@ struct OperatingMode {
   std::string what_moves;  ///< "blade flap", or the coordinates that take part most: "q3 71 %, q4 24 %"
 };
 
+/// The eigenvalue as it is shown: zero where it is, or its real part is, within rounding.
+Complex without_rounding(const OperatingMode& mode);
+
 /// Natural frequency |s|, rad/s; damping ratio -Re s / |s|, NaN at zero.
 double natural_frequency(const OperatingMode& mode);
 double damping_ratio(const OperatingMode& mode);

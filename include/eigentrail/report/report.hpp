@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace eigentrail {
@@ -13,9 +14,9 @@ std::string report_page(const std::vector<std::string>& files);
 /// What a picture of a trace shows that its file has only in the scene, as a JSON object. `excitation`: the
 /// frequency (rad/s) at equidistant values of the parameter and the harmonics named in the scene; null if the
 /// scene has no excitation and the parameter is no angular velocity. `geometry`: points, bodies, places on
-/// them and the links between these at the stored point `node`; null for matrices. Throws InputError if the
-/// file is no loci file or has no such point.
-std::string drawing_data(const std::string& loci_path, std::size_t node);
+/// them and the links between these at the stored point `node`; null for matrices. `loci_file`: the bytes of
+/// the file. Throws InputError if it is no loci file or has no such point.
+std::string drawing_data(std::string_view loci_file, std::size_t node);
 
 /// Whether a file is such a page.
 bool is_report(const std::string& path);

@@ -69,6 +69,9 @@ struct BoundaryStep {
   Matrix left, right;   ///< 4 x (order + 1): P, Q, tau, delta at both ends; divergence has tau = delta = 0
 };
 
+/// The same from the rows of a boundary file, 4 x 2 x `orders`: of each function the series at both ends.
+BoundaryStep boundary_step(double length, const double* series, Eigen::Index orders);
+
 /// P, Q, tau, delta at t in [0, 1] along the chord; s = tau + sqrt(delta).
 Eigen::Vector4d evaluate_step(const BoundaryStep& step, double t);
 

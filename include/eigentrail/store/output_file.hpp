@@ -20,7 +20,7 @@ enum class Existing { keep, replace };
 
 /// What becomes of two files of which `second` refers to `first` and is renamed last: they are replaced if
 /// `force`, and if a run was killed after it had renamed the first only. Throws InputError if one of them is
-/// there otherwise, with `advice`.
+/// there otherwise, with `advice`. Both may be the same file.
 Existing existing_pair(const std::string& first, const std::string& second, bool force,
                        const std::string& advice);
 

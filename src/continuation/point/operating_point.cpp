@@ -149,6 +149,12 @@ void check_within_samples(const TraceSetup& setup, const std::vector<double>& va
 
 }  // namespace
 
+Complex without_rounding(const OperatingMode& mode) {
+  if (!std::isfinite(mode.rounding)) return mode.s;
+  if (std::abs(mode.s) <= mode.rounding) return 0.0;
+  return std::abs(mode.s.real()) <= mode.rounding ? Complex(0.0, mode.s.imag()) : mode.s;
+}
+
 double natural_frequency(const OperatingMode& mode) {
   return std::abs(mode.s);
 }

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from ..dense_output import DenseOutput
 from ..errors import SceneError
-from ..interpolation import TwoPointTaylor
+from ..selection import path_of
 from .style import SAME_AS_ZERO
 
 FIRST_PLACES = 5       # of each step before it is refined
@@ -28,16 +27,14 @@ class Curves:
         if not loci.sizes["step"]:
             raise SceneError("the trace has no steps: there are no curves to draw")
         self._loci = loci
-        self._dense = DenseOutput(loci)
-        self._parameter = TwoPointTaylor(loci.step_length.values, loci.step_parameter.values)
-        self.turns_back = self._dense.path.turns_back
+        self._path = path_of(loci, loci.attrs["parameter"])
+        self.turns_back = self._path.turns_back
         self._refine()
 
     def eigenvalues(self, step, t):
         """Eigenvalues (n, mode) and the parameter (n) at t (n) on steps (n)."""
-        s = self._dense.at(step, t)
-        s = np.where(np.isfinite(s), s, complex(np.nan, np.nan))
-        return without_rounding(s), self._parameter[step](t)
+        s, parameter = self._path.evaluate(step, t)
+        return without_rounding(np.where(np.isfinite(s), s, complex(np.nan, np.nan))), parameter
 
     def styles(self, mode):
         """Of the line between each place and the next (n - 1): solid; dashed where the identity is not certified; dotted where
@@ -56,23 +53,24 @@ class Curves:
             return None
         return sum(np.nan_to_num(self._loci[name].values[self.step, mode]) for name in names)
 
-    def crossings(self, mode, excess):
-        """Places where `excess(parameter, s)` of a mode passes through zero: parameter and eigenvalue, (k) each."""
-        value = excess(self.parameter, self.s[:, mode])
-        same = self.step[1:] == self.step[:-1]
+    def crossings(self, modes, excess):
+        """Places where `excess(parameter, s)` of one of the modes passes through zero, mode by mode: the mode, the parameter
+        and the eigenvalue, (k) each."""
+        value = excess(self.parameter[:, np.newaxis], self.s[:, modes])
         with np.errstate(invalid="ignore"):
-            at = np.flatnonzero(same & (value[:-1] * value[1:] < 0))
-        step, low, high = self.step[at], self.t[at].copy(), self.t[at + 1].copy()
-        rising = value[at] < 0
-        for _ in range(BISECTIONS if len(at) else 0):
+            passes = (self.step[1:] == self.step[:-1]) & (value[:-1] * value[1:] < 0).T
+        column, at = np.nonzero(passes)
+        mode, step, low, high = np.asarray(modes)[column], self.step[at], self.t[at], self.t[at + 1]
+
+        def there(t):
+            s, p = self.eigenvalues(step, t)
+            return p, s[np.arange(len(mode)), mode]
+
+        for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
-            s, p = self.eigenvalues(step, middle)
-            before = (excess(p, s[:, mode]) < 0) == rising
+            before = (excess(*there(middle)) < 0) == (value[at, column] < 0)
             low, high = np.where(before, middle, low), np.where(before, high, middle)
-        if not len(at):
-            return np.empty(0), np.empty(0, complex)
-        s, p = self.eigenvalues(step, 0.5 * (low + high))
-        return p, s[:, mode]
+        return mode, *there(0.5 * (low + high))
 
     def _whirl(self, mode):
         whirl = self._loci.whirl

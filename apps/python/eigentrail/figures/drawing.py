@@ -5,8 +5,6 @@ velocity, and figures of shapes have no links.
 """
 
 import json
-import os
-import tempfile
 from collections import namedtuple
 
 import numpy as np
@@ -41,14 +39,7 @@ def geometry(loci, node):
 
 def _read(loci, node):
     image = loci.encoding.get(files.IMAGE)
-    if image is None:
-        return None
-    handle, path = tempfile.mkstemp(suffix=".h5")
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(image)
-        return json.loads(engine().drawing_data(path, node))
+        return None if image is None else json.loads(engine().drawing_data(image, node))
     except SceneError:
         return None
-    finally:
-        os.unlink(path)

@@ -1,11 +1,8 @@
-"""Operating ranges of a machine, and the margins that critical speeds must keep from them.
-
-Source: API RP 684, SP6.8.2.10. The amplification factor is 1/(2 zeta) of the mode.
-"""
+"""Operating ranges of a machine, and the margins that critical speeds must keep from them."""
 
 import re
 
-import numpy as np
+from ..engine import engine
 
 
 class Operation:
@@ -24,16 +21,11 @@ class Operation:
 
     def wanted(self, s, below):
         """The margin for a critical speed below or above a range, from the eigenvalue there."""
-        return api_margin(s, below) if self.margin is None else self.margin
+        return engine().api_margin(s, below) if self.margin is None else self.margin
 
     def is_too_close(self, p, s):
         """Whether a critical speed keeps less than its margin from a range, or lies within it."""
-        for low, high in self.ranges:
-            distance = (low - p) / low if p < low else (p - high) / high if p > high > 0 else np.inf if p > high else 0.0
-            wanted = self.wanted(s, p <= high)
-            if wanted > 0 and distance < wanted:
-                return True
-        return False
+        return engine().is_too_close(self.ranges, self.margin, p, s)
 
     def strips(self, critical):
         """Intervals beside the ranges that critical speeds must not enter. `critical`: pairs of parameter and eigenvalue; the
@@ -44,14 +36,3 @@ class Operation:
             above = max((self.wanted(s, False) for p, s in critical if p > high), default=self.margin or 0.0)
             found += [(low * (1 - below), low), (high, high * (1 + above))]
         return [(low, high) for low, high in found if high > low]
-
-
-def api_margin(s, below):
-    """The margin by API RP 684 as a fraction of the nearer end of the range."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = -s.real / abs(s)
-        amplification = 0.5 / ratio if ratio > 0 else np.inf
-    if not amplification >= 2.5:
-        return 0.0
-    grows = 0.17 * (1 - 1 / (amplification - 1.5))
-    return min(0.16, grows) if below else min(0.26, 0.1 + grows)

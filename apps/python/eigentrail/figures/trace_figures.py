@@ -172,10 +172,9 @@ def ray_crossings(figure, modes, harmonics, source):
     for n in harmonics:
         def excess(p, s, n=n):
             return np.where(oscillates(s), np.abs(s.imag), np.nan) - n * np.interp(p, *_ascending(source))
-        for mode in modes:
-            for p, s in zip(*figure.curves.crossings(mode, excess)):
-                if not any(abs(p - q) < 1e-6 * size and n == value for q, value in known):
-                    found.append(("resonance", p, s, n, str(mode + 1)))
+        for mode, p, s in zip(*figure.curves.crossings(modes, excess)):
+            if not any(abs(p - q) < 1e-6 * size and n == value for q, value in known):
+                found.append(("resonance", p, s, n, str(mode + 1)))
     return found
 
 

@@ -25,11 +25,13 @@ def draw(picture):
                          paper_bgcolor="#fff", plot_bgcolor="#fff", hovermode="closest",
                          font=dict(family="system-ui, DejaVu Sans, sans-serif", size=9 * POINT, color=INK),
                          legend=_legend_place(picture, left))
+    texts = []  # all at once: plotly copies those that it has for each one that is added
     if picture.title:
-        figure.add_annotation(x=left, y=1 - 0.1 / picture.height, xref="paper", yref="paper", xanchor="left", yanchor="top",
-                              text=plain(picture.title), showarrow=False, font=dict(size=picture.title_size * POINT))
+        texts.append(dict(x=left, y=1 - 0.1 / picture.height, xref="paper", yref="paper", xanchor="left", yanchor="top",
+                          text=plain(picture.title), showarrow=False, font=dict(size=picture.title_size * POINT)))
     for number, panel in enumerate(picture.panels):
-        _draw_panel(figure, go, panel, "" if number == 0 else str(number + 1))
+        texts += _draw_panel(figure, go, panel, "" if number == 0 else str(number + 1))
+    figure.layout.annotations = texts
     for item in picture.legend:
         figure.add_trace(_legend_entry(go, item))
     return figure
@@ -50,6 +52,7 @@ def plain(text):
 
 
 def _draw_panel(figure, go, panel, suffix):
+    """Draws all but the texts, and returns these."""
     common = dict(gridcolor=GRID, zeroline=False, linecolor="#555", showline=panel.frame, ticks="outside" if panel.frame else "",
                   ticklen=4, tickcolor="#555", exponentformat="power", minexponent=4, showgrid=panel.frame, visible=panel.frame)
     for which, axis, start, length in (("x", panel.x, panel.left, panel.width), ("y", panel.y, panel.bottom, panel.height)):
@@ -60,7 +63,9 @@ def _draw_panel(figure, go, panel, suffix):
             showticklabels=axis.shown, **_ticks(axis))
     axes = dict(xaxis=f"x{suffix}", yaxis=f"y{suffix}")
     for item in sorted(panel.items, key=lambda item: isinstance(item, Marks)):  # marks lie on lines
-        _DRAWN[type(item)](figure, go, item, axes, panel)
+        if not isinstance(item, Label):
+            _DRAWN[type(item)](figure, go, item, axes, panel)
+    return [_text(item, axes, panel) for item in panel.of(Label)]
 
 
 def _ticks(axis):
@@ -108,13 +113,13 @@ def _draw_span(figure, go, item, axes, panel):
                      fillcolor=item.colour, opacity=item.opacity, line=dict(width=0), layer="below")
 
 
-def _draw_label(figure, go, item, axes, panel):
+def _text(item, axes, panel):
     x, xref = _reference(panel.x, item.x, axes["xaxis"], panel.left, panel.width)
     y, yref = _reference(panel.y, item.y, axes["yaxis"], panel.bottom, panel.height)
-    figure.add_annotation(x=x, y=y, xref=xref, yref=yref, text=plain(item.text), showarrow=False,
-                          font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
-                          xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
-                          bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
+    return dict(x=x, y=y, xref=xref, yref=yref, text=plain(item.text), showarrow=False,
+                font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
+                xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
+                bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
 
 
 def _reference(axis, value, name, start, length):
@@ -134,7 +139,7 @@ def _draw_cells(figure, go, item, axes, panel):
                                 hovertemplate="%{x:.6g}, %{y:.6g}: %{text}<extra></extra>", **axes))
 
 
-_DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_span, Label: _draw_label, Cells: _draw_cells}
+_DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_span, Cells: _draw_cells}
 
 
 def _legend_entry(go, item):
