@@ -186,14 +186,14 @@ std::string describe_equal(const IndependentParts& parts) {
 
 /// Size of the matrices that are factored: a complex part has half of the coordinates of its pair.
 Eigen::Index solved_size(const IndependentParts::Range& range) {
-  return range.chirality == 0 ? range.size : range.size / 2;
+  return range.complex_sign == 0 ? range.size : range.size / 2;
 }
 
 /// "; parts 2 and 3 are a conjugate pair of complex parts, ..."; empty if there is none.
 std::string describe_pairs(const IndependentParts& parts) {
   std::string text;
   for (std::size_t i = 0; i < parts.count(); ++i) {
-    if (parts.ranges[i].chirality <= 0) continue;
+    if (parts.ranges[i].complex_sign <= 0) continue;
     text += "; parts " + std::to_string(i + 1) + " and " + std::to_string(i + 2) +
             " are a conjugate pair of complex parts, as forward and backward whirl of an isotropic shaft";
   }

@@ -58,7 +58,7 @@ Outcome outcome_of(Work&& work) {
 
 /// Sleeps between looks for messages: first briefly, then longer, because each look costs some 20 us of
 /// computing time. The longest sleep is short compared with pieces that are worth sharing.
-class Patience {
+class Backoff {
  public:
   void sleep() {
     std::this_thread::sleep_for(pause_);
@@ -83,8 +83,8 @@ struct OtherProcessFailed {
 
 void wait_for(MPI_Request request) {
   int complete = 0;
-  Patience patience;
-  while (MPI_Test(&request, &complete, MPI_STATUS_IGNORE), complete == 0) patience.sleep();
+  Backoff backoff;
+  while (MPI_Test(&request, &complete, MPI_STATUS_IGNORE), complete == 0) backoff.sleep();
 }
 
 /// Sends a message. Long ones wait until they are received, so MPI_Send would keep the core busy.
@@ -295,7 +295,7 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
     }
     if (outcome.code != done && failure.code == done) failure = std::move(outcome);
   };
-  Patience patience;
+  Backoff backoff;
   while (others > 0 || !own.ended()) {
     bool idle = true;
     for (std::size_t i = own.idle(); i > 0; --i) {
@@ -322,7 +322,7 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
         take(head[0], {head[1], bytes.substr(sizeof head)});
       }
     }
-    idle ? patience.sleep() : patience.restart();
+    idle ? backoff.sleep() : backoff.restart();
   }
   return failure;
 }
@@ -330,7 +330,7 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
 void MpiWorkers::assist(const Piece& piece) const {
   ComputingThreads own(threads_, piece);
   std::size_t requested = 0;
-  Patience patience;
+  Backoff backoff;
   while (!own.ended()) {
     bool idle = true;
     // Results first: the answer "no piece" then tells the first process that it has all results of a thread.
@@ -351,7 +351,7 @@ void MpiWorkers::assist(const Piece& piece) const {
       own.give(answer);
       --requested;
     }
-    idle ? patience.sleep() : patience.restart();
+    idle ? backoff.sleep() : backoff.restart();
   }
 }
 

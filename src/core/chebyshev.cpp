@@ -105,9 +105,9 @@ ComplexVector shifted(ComplexVector coefficients, Complex to) {
   return coefficients;
 }
 
-/// `patience` is the number of discs that may still be tried; each call uses one.
-bool excludes_roots(const ComplexVector& coefficients, const Rectangle& rectangle, int& patience) {
-  if (--patience < 0) return false;
+/// `discs` is the number of discs that may still be tried; each call uses one.
+bool excludes_roots(const ComplexVector& coefficients, const Rectangle& rectangle, int& discs) {
+  if (--discs < 0) return false;
   const double radius = std::hypot(rectangle.half_width, rectangle.half_height);
   if (has_no_root_within(shifted(coefficients, rectangle.center), radius)) return true;
   // Bisect the rectangle across its longer side and test both halves.
@@ -117,7 +117,7 @@ bool excludes_roots(const ComplexVector& coefficients, const Rectangle& rectangl
   const Complex offset = wide ? Complex(half.half_width) : Complex(0.0, half.half_height);
   for (const Complex center : {rectangle.center - offset, rectangle.center + offset}) {
     half.center = center;
-    if (!excludes_roots(coefficients, half, patience)) return false;
+    if (!excludes_roots(coefficients, half, discs)) return false;
   }
   return true;
 }
@@ -142,8 +142,8 @@ ComplexVector in_powers(const ComplexVector& chebyshev) {
 
 bool has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle) {
   // At most 40 discs: a limit on the cost, not on correctness.
-  int patience = 40;
-  return excludes_roots(coefficients, rectangle, patience);
+  int discs = 40;
+  return excludes_roots(coefficients, rectangle, discs);
 }
 
 bool chebyshev_has_no_root_in(const ComplexVector& coefficients, const Rectangle& rectangle) {

@@ -44,19 +44,19 @@ std::optional<Complex> direction_of(const PencilAtPoint& pencil, Complex s) {
 /// [P, X; Y, D], restricted to the vectors of a complex part.
 ComplexMatrix bordered_matrix(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& X,
                               const ComplexMatrix& Y, const ComplexMatrix& D) {
-  const int chirality = pencil.chirality;
-  const Eigen::Index n = chirality == 0 ? pencil.size() : pencil.size() / 2, k = D.rows();
+  const int complex_sign = pencil.complex_sign;
+  const Eigen::Index n = complex_sign == 0 ? pencil.size() : pencil.size() / 2, k = D.rows();
   ComplexMatrix B(n + k, n + k);
   B.bottomRightCorner(k, k) = D;
-  if (chirality == 0) {
+  if (complex_sign == 0) {
     B.topLeftCorner(n, n) = pencil.matrix(mu);
     B.topRightCorner(n, k) = X;
     B.bottomLeftCorner(k, n) = Y;
     return B;
   }
-  B.topLeftCorner(n, n) = chiral_block(pencil.matrix(mu), chirality);
-  B.topRightCorner(n, k) = chiral_coordinates(X, chirality);
-  B.bottomLeftCorner(k, n) = chiral_coordinates(Y.adjoint(), chirality).adjoint();
+  B.topLeftCorner(n, n) = complex_block(pencil.matrix(mu), complex_sign);
+  B.topRightCorner(n, k) = complex_coordinates(X, complex_sign);
+  B.bottomLeftCorner(k, n) = complex_coordinates(Y.adjoint(), complex_sign).adjoint();
   return B;
 }
 
@@ -64,8 +64,8 @@ ComplexMatrix bordered_matrix(const PencilAtPoint& pencil, Complex mu, const Com
 
 BorderedLu::BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMatrix& Z,
                        const ComplexMatrix& X, const ComplexMatrix& Y, const ComplexMatrix& D)
-    : n_(pencil.size()), k_(D.rows()), chirality_(pencil.chirality) {
-  if (pencil.bands && chirality_ == 0) {
+    : n_(pencil.size()), k_(D.rows()), complex_sign_(pencil.complex_sign) {
+  if (pencil.bands && complex_sign_ == 0) {
     auto factors = std::make_shared<const BorderedBand>(pencil.bands.sum(mu * mu, mu, 1.0), Z, X, Y, D);
     if (factors->is_accurate()) banded_ = std::move(factors);
   }
@@ -75,10 +75,10 @@ BorderedLu::BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMat
 template <class Vectors, class Solve>
 void BorderedLu::solve(Vectors& b, const Solve& by) const {
   if (banded_) return by(*banded_, b);
-  if (chirality_ == 0) return by(*lu_, b);
+  if (complex_sign_ == 0) return by(*lu_, b);
   Vectors within = restricted(b);
   by(*lu_, within);
-  b.topRows(n_) = from_chiral_coordinates(within.topRows(n_ / 2), chirality_);
+  b.topRows(n_) = from_complex_coordinates(within.topRows(n_ / 2), complex_sign_);
   b.bottomRows(k_) = within.bottomRows(k_);
 }
 
@@ -100,7 +100,7 @@ void BorderedLu::solve_adjoint_in_place(ComplexMatrix& B) const {
 
 ComplexMatrix BorderedLu::restricted(const ComplexMatrix& b) const {
   ComplexMatrix within(n_ / 2 + k_, b.cols());
-  within << chiral_coordinates(b.topRows(n_), chirality_), b.bottomRows(k_);
+  within << complex_coordinates(b.topRows(n_), complex_sign_), b.bottomRows(k_);
   return within;
 }
 
@@ -132,7 +132,7 @@ PairFactorization::PairFactorization(const PencilAtPoint& pencil, const ComplexM
   const double slope = (2.0 * MZ * T + CZ).norm();
   slope_scale_ = slope > 0.0 ? size / slope : size;
   border_scale_ = size;
-  if (k == 1 && pencil.chirality == 0 && !pencil.bands &&
+  if (k == 1 && pencil.complex_sign == 0 && !pencil.bands &&
       factor_real(pencil, Z, T(0, 0), W.col(0).head(n), 2.0 * MZ * T + CZ))
     return;
   columns_.reserve(static_cast<std::size_t>(k));

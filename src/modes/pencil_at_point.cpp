@@ -83,7 +83,7 @@ PencilAtPoint::PencilAtPoint(const ReducedPencil& pencil, Chart chart)
       norm_M(M.norm()),
       norm_C(C.norm()),
       norm_K(K.norm()),
-      chirality(pencil.chirality) {}
+      complex_sign(pencil.complex_sign) {}
 
 PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
     : M(chart == Chart::finite ? finite.M : finite.K),
@@ -92,7 +92,7 @@ PencilAtPoint::PencilAtPoint(const PencilAtPoint& finite, Chart chart)
       norm_M(chart == Chart::finite ? finite.norm_M : finite.norm_K),
       norm_C(finite.norm_C),
       norm_K(chart == Chart::finite ? finite.norm_K : finite.norm_M),
-      chirality(finite.chirality),
+      complex_sign(finite.complex_sign),
       bands(finite.bands) {
   if (chart == Chart::reciprocal) std::swap(bands.M, bands.K);
 }

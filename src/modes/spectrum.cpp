@@ -11,7 +11,7 @@
 #include "core/lapack.hpp"
 #include "core/orthonormal.hpp"
 #include "core/reciprocal_condition.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 
 namespace eigentrail {
 namespace {
@@ -256,9 +256,10 @@ void add_copies(int copies, Spectrum& spectrum) {
 }
 
 /// The eigenvector of a complex part from that of its companion form.
-ComplexVector chiral_vector(const ComplexVector& both, Eigen::Index m, int chirality) {
+ComplexVector vector_of_complex_part(const ComplexVector& both, Eigen::Index m, int complex_sign) {
   const bool upper = both.size() < 2 * m || both.head(m).norm() >= both.tail(m).norm();
-  return from_chiral_coordinates(ComplexVector(upper ? both.head(m) : both.tail(m)).normalized(), chirality);
+  return from_complex_coordinates(ComplexVector(upper ? both.head(m) : both.tail(m)).normalized(),
+                                  complex_sign);
 }
 
 /// alpha and beta of all eigenvalues of a complex pencil, with the vectors of its companion form if those are
@@ -297,12 +298,12 @@ std::optional<std::pair<ComplexVector, ComplexVector>> complex_qr(const Eigen::P
 }
 
 /// The eigenvalues with Im s >= 0 of a complex part: those of its complex matrices.
-Spectrum solve_chiral(const ReducedPencil& pencil, bool with_vectors) {
+Spectrum solve_complex_part(const ReducedPencil& pencil, bool with_vectors) {
   Spectrum spectrum;
   const Scaling scaling = fan_lin_van_dooren(pencil.M[0], pencil.C[0], pencil.K[0]);
   spectrum.scale = scaling.gamma;
   const auto block = [&](double factor, const Matrix& A) {
-    return ComplexMatrix(scaling.delta * factor * chiral_block(A, pencil.chirality));
+    return ComplexMatrix(scaling.delta * factor * complex_block(A, pencil.complex_sign));
   };
   const ComplexMatrix M = block(scaling.gamma * scaling.gamma, pencil.M[0]);
   const ComplexMatrix C = block(scaling.gamma, pencil.C[0]), K = block(1.0, pencil.K[0]);
@@ -324,9 +325,10 @@ Spectrum solve_chiral(const ReducedPencil& pencil, bool with_vectors) {
       continue;
     }
     const Complex s = spectrum.scale * alpha[j] / beta[j];
-    if (s.imag() < 0.0) continue;  // its conjugate is a mode of the twin
+    if (s.imag() < 0.0) continue;  // its conjugate is a mode of the conjugate part
     spectrum.modes.push_back({s, {}});
-    if (with_vectors) spectrum.modes.back().z = chiral_vector(vectors.col(j), M.rows(), pencil.chirality);
+    if (with_vectors)
+      spectrum.modes.back().z = vector_of_complex_part(vectors.col(j), M.rows(), pencil.complex_sign);
   }
   sort(spectrum);
   spectrum.status = SpectrumStatus::complete;
@@ -335,8 +337,8 @@ Spectrum solve_chiral(const ReducedPencil& pencil, bool with_vectors) {
 
 Spectrum solve_parts(const ReducedPencil& pencil, bool with_vectors) {
   if (pencil.parts.empty()) {
-    Spectrum spectrum = pencil.chirality != 0 ? solve_chiral(pencil, with_vectors)
-                                              : solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
+    Spectrum spectrum = pencil.complex_sign != 0 ? solve_complex_part(pencil, with_vectors)
+                                                 : solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
     add_copies(pencil.copies, spectrum);
     return spectrum;
   }
@@ -392,10 +394,10 @@ ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K
 }
 
 ComplexVector eigenvector_near(const ReducedPencil& pencil, Complex s, double s_ref) {
-  if (pencil.chirality == 0) return vector_near(pencil.M[0], pencil.C[0], pencil.K[0], s, s_ref);
-  const auto block = [&](const Matrix& A) { return chiral_block(A, pencil.chirality); };
-  return from_chiral_coordinates(
-      vector_near(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), s, s_ref), pencil.chirality);
+  if (pencil.complex_sign == 0) return vector_near(pencil.M[0], pencil.C[0], pencil.K[0], s, s_ref);
+  const auto block = [&](const Matrix& A) { return complex_block(A, pencil.complex_sign); };
+  return from_complex_coordinates(
+      vector_near(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), s, s_ref), pencil.complex_sign);
 }
 
 namespace {
@@ -460,12 +462,12 @@ InvariantPair invariant_subspace(const Matrix& M, const Matrix& C, const Matrix&
 
 InvariantPair invariant_subspace(const ReducedPencil& pencil, Complex centre, Eigen::Index k, bool is_real,
                                  double least_scale) {
-  if (pencil.chirality == 0)
+  if (pencil.complex_sign == 0)
     return invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, k, is_real, least_scale);
-  const auto block = [&](const Matrix& A) { return chiral_block(A, pencil.chirality); };
+  const auto block = [&](const Matrix& A) { return complex_block(A, pencil.complex_sign); };
   InvariantPair pair =
       subspace_of(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), centre, k, false, least_scale);
-  pair.Z = from_chiral_coordinates(pair.Z, pencil.chirality);
+  pair.Z = from_complex_coordinates(pair.Z, pencil.complex_sign);
   return pair;
 }
 

@@ -9,7 +9,7 @@
 
 #include "eigentrail/core/text.hpp"
 #include "projection/large_model.hpp"
-#include "projection/newcomers.hpp"
+#include "projection/mode_entries.hpp"
 #include "projection/projection_space.hpp"
 #include "projection/scouted_places.hpp"
 
@@ -89,7 +89,7 @@ class Projector {
         continue;
       }
       if (stuck) {
-        if (lines_.size() == 1) note_newcomers(*model, places_);
+        if (lines_.size() == 1) note_mode_entries(*model, places_);
         return give_up(std::move(model), left, left.indicator,
                        "also with the vectors of that place, probably by rounding of the large matrices");
       }
@@ -97,7 +97,7 @@ class Projector {
         visits_.push_back({parameters, std::move(sample.exact), error});
         return settled(smallest(std::move(model)));
       }
-      if (lines_.size() == 1) note_newcomers(*model, places_);
+      if (lines_.size() == 1) note_mode_entries(*model, places_);
       // Vectors that are at hand are not thrown away; left ones are not looked for only to be safer.
       add_vectors(sample, *model);
       model.reset();
@@ -287,9 +287,9 @@ class Projector {
     projection_.error_at = worst.place->at.p;
   }
 
-  void note_newcomers(const Model& model, const ScoutedPlaces& places) {
-    const Newcomers found =
-        find_newcomers(large_, model, places.all(), usual_shift(trace_.modes), places.reference());
+  void note_mode_entries(const Model& model, const ScoutedPlaces& places) {
+    const ModeEntries found =
+        find_mode_entries(large_, model, places.all(), usual_shift(trace_.modes), places.reference());
     if (found.count == 0) return;
     const std::string who = found.count == 1
                                 ? "a mode that is not followed comes among the followed ones, "
@@ -340,7 +340,7 @@ class Projector {
       smaller = large_.on_two_spaces(*model, space_, accuracy_of_vectors(), middle(), frequency_);
     const bool is_enough = smaller && holds(*smaller, places);
     if (is_enough) model = std::move(smaller);
-    if (lines_.size() == 1) note_newcomers(*model, is_enough ? places : places_);
+    if (lines_.size() == 1) note_mode_entries(*model, is_enough ? places : places_);
     return model;
   }
 

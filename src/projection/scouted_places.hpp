@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "projection/newcomers.hpp"
+#include "projection/mode_entries.hpp"
 
 namespace eigentrail {
 

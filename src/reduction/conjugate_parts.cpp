@@ -1,4 +1,4 @@
-// Conjugate pairs of complex parts (see chirality.hpp and independent_parts.hpp).
+// Conjugate pairs of complex parts (see complex_blocks.hpp and independent_parts.hpp).
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/products.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 #include "reduction/splitting.hpp"
 
@@ -246,9 +246,9 @@ std::vector<IndependentParts::Range> doubled(std::vector<IndependentParts::Range
     ranges[i].like = first[ranges[i].like];
     result.push_back(ranges[i]);
     if (!is_pair[i]) continue;
-    result.back().chirality = 1;
-    ranges[i].chirality = -1;
-    if (ranges[i].like == first[i]) ++ranges[i].like;  // not like its twin
+    result.back().complex_sign = 1;
+    ranges[i].complex_sign = -1;
+    if (ranges[i].like == first[i]) ++ranges[i].like;  // not like its conjugate part
     result.push_back(std::move(ranges[i]));
   }
   return result;
@@ -289,9 +289,9 @@ std::shared_ptr<const IndependentParts> joined_pairs(const IndependentParts& par
   numbers.clear();
   for (std::size_t i = 0; i < parts.count(); ++i) {
     IndependentParts::Range range = parts.ranges[i];
-    const bool is_second = range.chirality < 0 && which[i - 1];
+    const bool is_second = range.complex_sign < 0 && which[i - 1];
     if (!is_second) {
-      if (which[i]) range.chirality = 0;
+      if (which[i]) range.complex_sign = 0;
       joined->ranges.push_back(std::move(range));
     }
     numbers.push_back(static_cast<int>(joined->ranges.size()) - 1);

@@ -138,7 +138,7 @@ std::vector<Matrix> common_frames(const std::vector<PlaceOnPath>& places) {
 Eigen::Index IndependentParts::freedoms() const {
   Eigen::Index count = 0;
   for (const Range& range : ranges) {
-    if (range.chirality >= 0) count += range.size * static_cast<Eigen::Index>(1 + range.copies.size());
+    if (range.complex_sign >= 0) count += range.size * static_cast<Eigen::Index>(1 + range.copies.size());
   }
   return count;
 }

@@ -220,7 +220,7 @@ double departure_from_parts(const Matrix& A, const IndependentParts& parts) {
     at += range.size;
   };
   for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.chirality < 0) continue;
+    if (range.complex_sign < 0) continue;
     add(range, parts.right.middleCols(range.first, range.size),
         parts.left.middleCols(range.first, range.size));
     for (const PartCopy& copy : range.copies) add(range, copy.right, copy.left);

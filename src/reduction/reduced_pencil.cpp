@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/products.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 
 namespace eigentrail {
 namespace {
@@ -114,7 +114,7 @@ Matrix selected_blocks(const IndependentParts& parts, const Matrix& B, const std
                        const std::vector<Eigen::Index>& columns) {
   Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
   for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.chirality < 0) continue;  // has the same matrices
+    if (range.complex_sign < 0) continue;  // has the same matrices
     for (Eigen::Index j = range.first; j < range.first + range.size; ++j) {
       const Eigen::Index column = columns[static_cast<std::size_t>(j)];
       for (Eigen::Index i = range.first; i < range.first + range.size; ++i) {
@@ -136,7 +136,7 @@ Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
   Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
   add_product(product, B, parts.right);
   for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.chirality < 0) continue;  // has the same matrices
+    if (range.complex_sign < 0) continue;  // has the same matrices
     result.block(range.first, range.first, range.size, range.size).noalias() =
         parts.left.middleCols(range.first, range.size).transpose() *
         product.middleCols(range.first, range.size);
@@ -192,7 +192,7 @@ MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const
 /// Removes the rounding by which conjugate pairs of parts differ from their canonical form.
 MatrixSeries canonical(MatrixSeries B, const IndependentParts& parts) {
   for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.chirality <= 0) continue;
+    if (range.complex_sign <= 0) continue;
     for (Matrix& coefficient : B) {
       auto block = coefficient.block(range.first, range.first, range.size, range.size);
       block = canonical_form(block);
@@ -223,7 +223,7 @@ ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasi
                            block_of(whole.K, range),
                            {},
                            copies(range),
-                           range.chirality});
+                           range.complex_sign});
   return whole;
 }
 

@@ -8,7 +8,7 @@
 #include "core/diagonal_blocks.hpp"
 #include "core/orthonormal.hpp"
 #include "core/products.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 
 namespace eigentrail {
 namespace {
@@ -38,8 +38,8 @@ ComplexMatrix TangentBasis::coordinates(const ComplexMatrix& V, int part) const 
   if (!parts) return transposed_product(T[0], V);
   if (parts->is_diagonal) return parts->inverse.diagonal().asDiagonal() * V;
   ComplexMatrix Z = product(Matrix(parts->coordinates(static_cast<std::size_t>(part))), V);
-  const int chirality = parts->ranges[static_cast<std::size_t>(part)].chirality;
-  if (chirality != 0) Z = from_chiral_coordinates(chiral_coordinates(Z, chirality), chirality);
+  const int complex_sign = parts->ranges[static_cast<std::size_t>(part)].complex_sign;
+  if (complex_sign != 0) Z = from_complex_coordinates(complex_coordinates(Z, complex_sign), complex_sign);
   return Z;
 }
 

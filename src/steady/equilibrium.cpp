@@ -22,7 +22,7 @@ constexpr double rounded = 1e-13;
 constexpr int max_corrections = 6;
 /// Iterations after which another method tries from the guess. Where KINSOL's line search works it takes
 /// fewer.
-constexpr int patience = 25;
+constexpr int first_iterations = 25;
 /// From this number of coordinates on the error-oriented method is the first one: the longer a chain of stiff
 /// elements, the shorter the steps of KINSOL's line search.
 constexpr Eigen::Index many_coordinates = 1000;
@@ -174,7 +174,7 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
     return [&, how](Vector& v) { return solve_error_oriented(problem, n, how, v); };
   };
   const auto load_steps = [&](Vector& v) { return solve_in_load_steps(problem, n, {}, v); };
-  const int first = std::min(patience, options.max_iterations);
+  const int first = std::min(first_iterations, options.max_iterations);
   if (!options.relax) return large ? error_oriented({.least_damping = 1.0})(u) : kinsol(first)(u);
   std::vector<std::function<NonlinearResult(Vector&)>> turns;
   if (!large) turns.push_back(kinsol(first));

@@ -226,7 +226,7 @@ TEST(Certificate, ClosesForSinglesOnAStepThatResolvesTheVeering) {
 }
 
 /// The veering in coordinates that differ by 1e4, where the plain norm of a change is as large: the norms
-/// that are used in its place do not close the tube of an exchange.
+/// that are used in its place do not close the test of an exchange.
 TEST(Certificate, StaysOpenForSinglesThatAreExchangedInBadlyScaledCoordinates) {
   const auto scaled = [](double eps) {
     std::ostringstream text;
@@ -477,7 +477,7 @@ TEST(ModalCertificate, ClosesInAsManyPiecesInAnyUnits) {
   for (const double unit : {1e-4, 1e-2, 1e2, 1e4}) EXPECT_EQ(bases(unit), bases(1.0)) << unit;
 }
 
-/// s = -p and -1 + p meet at p = 1/2, coupled by nothing: the tube of neither closes over the crossing,
+/// s = -p and -1 + p meet at p = 1/2, coupled by nothing: the test of neither closes over the crossing,
 /// wherever it lies between the samples.
 TEST(ModalCertificate, StaysOpenWhereEigenvaluesCross) {
   for (const double to : {0.6, 0.75, 0.9, 1.0}) {
@@ -488,7 +488,7 @@ TEST(ModalCertificate, StaysOpenWhereEigenvaluesCross) {
   }
 }
 
-/// mu = 1/s of one mode is followed in place of s: its tube is that of s.
+/// mu = 1/s of one mode is followed in place of s: its test is that of s.
 TEST(ModalCertificate, ClosesForATrackInTheOtherChart) {
   Step step(smooth_family(), 0.2, 0.4);
   for (PathNode* node : {&step.left, &step.right}) {

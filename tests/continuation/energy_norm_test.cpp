@@ -1,4 +1,4 @@
-// The norm in which stiff and soft directions of a pencil count alike, and the norm of a tube that uses it.
+// The norm in which stiff and soft directions of a pencil count alike, and the norm of a ball that uses it.
 #include "continuation/step/energy_norm.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "continuation/step/tube_norm.hpp"
+#include "continuation/step/ball_norm.hpp"
 #include "support/families.hpp"
 
 namespace eigentrail::test {
@@ -156,10 +156,10 @@ TEST(EnergyNorm, IsNoneOfASingularPencilOrOfNoNumbers) {
   EXPECT_FALSE(EnergyNorm::of(PencilAtPoint(none), 1.0));
 }
 
-/// The maps of a tube's norm for a block of k modes, all parts in use.
-class NormOfATube : public testing::TestWithParam<int> {
+/// The maps of a ball's norm for a block of k modes, all parts in use.
+class NormOfABall : public testing::TestWithParam<int> {
  protected:
-  NormOfATube() {
+  NormOfABall() {
     norm.set_energy(EnergyNorm::of(PencilAtPoint(family), 1.1), Z);
     ComplexMatrix Q =
         random_complex(size, 2, engine).householderQr().householderQ() * ComplexMatrix::Identity(size, 2);
@@ -171,7 +171,7 @@ class NormOfATube : public testing::TestWithParam<int> {
   }
 
   /// The matrix of one of the norm's maps.
-  ComplexMatrix matrix(void (TubeNorm::*map)(ComplexVector&) const) const {
+  ComplexMatrix matrix(void (BallNorm::*map)(ComplexVector&) const) const {
     ComplexMatrix result(size, size);
     for (Eigen::Index i = 0; i < size; ++i) {
       ComplexVector column = ComplexVector::Unit(size, i);
@@ -187,27 +187,27 @@ class NormOfATube : public testing::TestWithParam<int> {
   std::mt19937_64 engine{8};
   ReducedPencil family = at(random_family(n, 3), 0.0);
   ComplexMatrix Z = random_complex(n, k, engine);
-  TubeNorm norm{n, k};
+  BallNorm norm{n, k};
 };
 
-TEST_P(NormOfATube, HasInversesAndAdjoints) {
-  const ComplexMatrix S = matrix(&TubeNorm::apply);
-  const ComplexMatrix inverse = matrix(&TubeNorm::apply_inverse);
+TEST_P(NormOfABall, HasInversesAndAdjoints) {
+  const ComplexMatrix S = matrix(&BallNorm::apply);
+  const ComplexMatrix inverse = matrix(&BallNorm::apply_inverse);
   EXPECT_GT((S - ComplexMatrix::Identity(size, size)).norm(), 0.1);
   EXPECT_LT((S * inverse - ComplexMatrix::Identity(size, size)).norm(), 1e-12 * S.norm() * inverse.norm());
-  EXPECT_LT((matrix(&TubeNorm::apply_adjoint) - S.adjoint()).norm(), 1e-13 * S.norm());
-  EXPECT_LT((matrix(&TubeNorm::apply_inverse_adjoint) - inverse.adjoint()).norm(), 1e-13 * inverse.norm());
+  EXPECT_LT((matrix(&BallNorm::apply_adjoint) - S.adjoint()).norm(), 1e-13 * S.norm());
+  EXPECT_LT((matrix(&BallNorm::apply_inverse_adjoint) - inverse.adjoint()).norm(), 1e-13 * inverse.norm());
 }
 
-TEST_P(NormOfATube, BoundsTheEigenvaluePart) {
-  const ComplexMatrix rows = matrix(&TubeNorm::apply).bottomRows(k * k);
+TEST_P(NormOfABall, BoundsTheEigenvaluePart) {
+  const ComplexMatrix rows = matrix(&BallNorm::apply).bottomRows(k * k);
   const double expected = Eigen::JacobiSVD<ComplexMatrix>(rows).singularValues()[0];
   EXPECT_NEAR(norm.largest_eigenvalue_part(), expected, 1e-12 * expected);
-  EXPECT_EQ(TubeNorm(n, k).largest_eigenvalue_part(), 1.0);
+  EXPECT_EQ(BallNorm(n, k).largest_eigenvalue_part(), 1.0);
 }
 
-TEST_P(NormOfATube, OfEnergyLeavesTheModesAsLongAsTheyAre) {
-  TubeNorm energy(n, k);
+TEST_P(NormOfABall, OfEnergyLeavesTheModesAsLongAsTheyAre) {
+  BallNorm energy(n, k);
   energy.set_energy(EnergyNorm::of(PencilAtPoint(family), 1.1), Z);
   ComplexVector x = ComplexVector::Zero(size);
   x.head(n * k) = Z.reshaped();
@@ -215,7 +215,7 @@ TEST_P(NormOfATube, OfEnergyLeavesTheModesAsLongAsTheyAre) {
   EXPECT_NEAR(x.norm(), Z.norm(), 1e-13 * Z.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, NormOfATube, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Blocks, NormOfABall, testing::Values(1, 2, 3));
 
 }  // namespace
 }  // namespace eigentrail::test

@@ -84,7 +84,7 @@ PlantedStep veering(double eps, double from, double to, bool in_one_block) {
   return {Planted::frequencies(W), roots, from, to, in_one_block};
 }
 
-TEST(ExpectedInBlocks, CrossingIsOneMeetingOfItsTwoStrands) {
+TEST(ExpectedInBlocks, CrossingIsOneMeetingOfItsTwoEigenvalueBranches) {
   for (const auto& [from, to] : {std::pair(0.0, 0.8), std::pair(0.8, 0.0)}) {
     const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, from, to);
     const auto found = step.in_blocks();
@@ -213,11 +213,11 @@ TEST(ExpectedInBlocks, ModesThatAreOneNeverMeet) {
   EXPECT_TRUE(step.in_blocks().empty());
 }
 
-/// A guest that has met another one is not known from it behind: a step ends there as well, although it is
-/// nobody's event (MeetingEvents.OfGuestsAreNone).
-TEST(ExpectedInBlocks, MeetingsOfGuestsEndAStep) {
+/// A guard mode that has met another one is not known from it behind: a step ends there as well, although it
+/// is nobody's event (MeetingEvents.OfGuardsAreNone).
+TEST(ExpectedInBlocks, MeetingsOfGuardsEndAStep) {
   PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}, 0.0, 0.9);
-  step.left.tracks[0].modes = {Track::guest, Track::guest, 4};
+  step.left.tracks[0].modes = {Track::guard, Track::guard, 4};
   const auto found = step.in_blocks();
   ASSERT_EQ(found.size(), 3U);
   EXPECT_NEAR(found[0].position.real(), 0.2, of_double_roots);

@@ -138,9 +138,9 @@ TEST(MeetingEvents, OfInfiniteEigenvaluesAreNone) {
 }
 
 /// Modes of the conjugate members have no number, those that are not followed neither.
-TEST(MeetingEvents, OfGuestsAreNone) {
+TEST(MeetingEvents, OfGuardsAreNone) {
   AtCrossing at;
-  at.node.tracks[1].modes = {Track::guest, Track::guest};
+  at.node.tracks[1].modes = {Track::guard, Track::guard};
   EXPECT_TRUE(meeting_events(at.planted.search, at.node, at.meetings).events.empty());
 }
 

@@ -67,7 +67,7 @@ TEST(GapOf, AnyTwoOfThreeIsTheirs) {
   expect(1, 2, 0.4, 1.5);
 }
 
-TEST(GapOf, AStrandOfTwoAndAThirdIsThatOfTheirMeans) {
+TEST(GapOf, AnEigenvalueBranchOfTwoAndAThirdIsThatOfTheirMeans) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
   const PathNode node = family.point(0.0, {{{2.0 * j, 2.5 * j, 2.0 * j}}});
   // -((0.5 - 1.2 h) / 2)^2.

@@ -14,9 +14,9 @@ TEST(SortedModes, AreAscendingAndEachThereOnce) {
   EXPECT_EQ(sorted_modes({3, 0, 3, 1, 0}), (Modes{0, 1, 3}));
 }
 
-TEST(SortedModes, LeaveOutConjugatesAndGuests) {
-  EXPECT_EQ(sorted_modes({2, Track::no_mode, 1, Track::guest}), (Modes{1, 2}));
-  EXPECT_TRUE(sorted_modes({Track::no_mode, Track::guest}).empty());
+TEST(SortedModes, LeaveOutConjugatesAndGuards) {
+  EXPECT_EQ(sorted_modes({2, Track::no_mode, 1, Track::guard}), (Modes{1, 2}));
+  EXPECT_TRUE(sorted_modes({Track::no_mode, Track::guard}).empty());
   EXPECT_TRUE(sorted_modes({}).empty());
 }
 

@@ -70,15 +70,15 @@ TEST(SettleRealBlock, NumbersWhatBeginsOnTheRealAxis) {
   EXPECT_EQ(numbers.count, 6);
 }
 
-TEST(SettleRealBlock, LeavesGuestsAlone) {
+TEST(SettleRealBlock, LeavesGuardsAlone) {
   Track track;
   track.roots = ComplexVector{{-1.0, -2.0}};
   track.pair.is_real = true;
   track.pair.Lambda = ComplexMatrix::Identity(2, 2);
-  track.modes = {0, Track::guest};
+  track.modes = {0, Track::guard};
   ModeNumbers numbers{1};
   EXPECT_TRUE(settle_real_block(track, track.modes, numbers).empty());
-  EXPECT_EQ(track.modes, (Modes{0, Track::guest}));
+  EXPECT_EQ(track.modes, (Modes{0, Track::guard}));
 }
 
 /// Modes 3 and 5 were a pair. Then 3 meets an eigenvalue that nobody follows, while 5 goes on elsewhere:
@@ -87,11 +87,11 @@ TEST(SettleRealBlock, NeverGivesANumberThatIsInUse) {
   Track track;
   track.pair.is_real = true;
   track.pair.Lambda = ComplexMatrix::Identity(2, 2);
-  for (const bool meets_a_guest : {true, false}) {
+  for (const bool meets_a_guard : {true, false}) {
     ModeNumbers numbers{6, {{3, 5}, {5, 3}}};
-    if (meets_a_guest) {
+    if (meets_a_guard) {
       track.roots = ComplexVector{{Complex(-1.5, 0.5), Complex(-1.5, -0.5)}};
-      track.modes = {3, Track::guest};
+      track.modes = {3, Track::guard};
       EXPECT_TRUE(settle_real_block(track, {3, 5}, numbers).empty());
       EXPECT_EQ(track.modes, (Modes{3, Track::no_mode}));
       EXPECT_TRUE(numbers.partners.empty());

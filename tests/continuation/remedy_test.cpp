@@ -63,7 +63,7 @@ TEST(FindRemedy, KeepsANeighbourWithWhatCannotBeCertified) {
   EXPECT_FALSE(again.helps());
 }
 
-/// Of a mode that is not followed: it becomes a guest.
+/// Of a mode that is not followed: it becomes a guard mode.
 TEST(FindRemedy, JoinsAModeWithAnUnfollowedOneThatItMeets) {
   Lines lines({2.0 * j, 5.0 * j});
   lines.rules.follows_all = false;
@@ -72,7 +72,7 @@ TEST(FindRemedy, JoinsAModeWithAnUnfollowedOneThatItMeets) {
   ASSERT_EQ(lines.node.tracks.size(), 2U) << "other neighbours are dropped again";
   const Track& block = lines.node.tracks.back();
   ASSERT_EQ(block.size(), 2);
-  EXPECT_EQ(block.modes, (std::vector<int>{0, Track::guest}));
+  EXPECT_EQ(block.modes, (std::vector<int>{0, Track::guard}));
   EXPECT_LT(std::abs(block.roots[1] - 2.2 * j), 1e-10);
 }
 

@@ -91,11 +91,11 @@ TEST(StartingGroups, DoubleOneIsABlock) {
   EXPECT_LT((pair.Lambda - 2.0 * j * ComplexMatrix::Identity(2, 2)).norm(), 1e-13);
 }
 
-TEST(StartingGroups, OneBehindTheLastThatIsTooCloseComesAlongAsAGuest) {
+TEST(StartingGroups, OneBehindTheLastThatIsTooCloseComesAlongAsAGuard) {
   const ReducedPencil pencil = undamped(diagonal(Vector{{4.0, 9.0, 4.0}}));
   const auto groups = groups_of(pencil, 1);
   ASSERT_EQ(groups.size(), 1U);
-  EXPECT_EQ(groups[0].modes, (Modes{0, Track::guest}));
+  EXPECT_EQ(groups[0].modes, (Modes{0, Track::guard}));
   EXPECT_EQ(groups[0].roots.size(), 2);
   EXPECT_EQ(groups[0].pair.size(), 2);
 }
@@ -166,7 +166,7 @@ TEST(StartingGroups, OnTheRealAxisADoubleOneIsARealBlockOfTwoModes) {
   EXPECT_NEAR(pair.Lambda.determinant().real(), 1.0, 1e-13);
 }
 
-TEST(StartingGroups, GuestsBringTheirConjugatesAsGuests) {
+TEST(StartingGroups, GuardsBringTheirConjugatesAsGuards) {
   // Two pairs -1 +- 1e-5 j, of which one is followed.
   const ReducedPencil pencil = oscillators(Vector{{2.0, 2.0, 0.2}}, Vector{{1.0 + 1e-10, 1.0 + 2e-10, 9.01}});
   const auto groups = groups_of(pencil, 1);
@@ -175,7 +175,7 @@ TEST(StartingGroups, GuestsBringTheirConjugatesAsGuests) {
   EXPECT_TRUE(groups[0].pair.is_real);
   Modes sorted = groups[0].modes;
   std::sort(sorted.begin(), sorted.end());
-  EXPECT_EQ(sorted, (Modes{Track::guest, Track::guest, Track::no_mode, 0}));
+  EXPECT_EQ(sorted, (Modes{Track::guard, Track::guard, Track::no_mode, 0}));
 }
 
 /// A triple eigenvalue with one eigenvector. The three eigenvalues of QZ differ by some 1e-5; the functions

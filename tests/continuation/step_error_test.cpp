@@ -233,7 +233,7 @@ TEST(ObservedRounding, IsNoJumpAndNoTruncation) {
 TEST(ObservedRounding, IsKnownByModeWhateverTheyAreFollowedWith) {
   PathFrame frame;
   Track pair, single, other;
-  pair.modes = {2, Track::guest};
+  pair.modes = {2, Track::guard};
   single.modes = {2};
   other.modes = {0, Track::no_mode};
   EXPECT_EQ(known_rounding(frame, single), 0.0);

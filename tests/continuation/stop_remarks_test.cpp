@@ -43,9 +43,9 @@ TEST(TooSmallMessage, NamesNobodyWhereNoTrackIsTheReason) {
 
 TEST(TooSmallMessage, LeavesOutMembersWithoutANumber) {
   Stopped stopped;
-  stopped.node.tracks[0].modes = {Track::guest, 1};
+  stopped.node.tracks[0].modes = {Track::guard, 1};
   EXPECT_TRUE(has(stopped.message(Verdict::Kind::mode_lost, 0), ": mode 2: a reason"));
-  stopped.node.tracks[0].modes = {Track::guest, Track::no_mode};
+  stopped.node.tracks[0].modes = {Track::guard, Track::no_mode};
   EXPECT_TRUE(has(stopped.message(Verdict::Kind::mode_lost, 0), "p = 0: a reason"));
 }
 

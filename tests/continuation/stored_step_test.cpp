@@ -63,8 +63,8 @@ TEST(Certify, ClosesOnASmoothStep) {
   EXPECT_GT(counts.certificate_bases + counts.certificate_factorizations, 0U);
 }
 
-/// Two single modes exchanged on the right end: no tube leads from one to the other. Behind the first that
-/// fails the others are tested only if they count.
+/// Two single modes exchanged on the right end: no ball contains both. Behind the first that fails the others
+/// are tested only if they count.
 TEST(Certify, DoesNotCloseBetweenDifferentModes) {
   PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
   const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));

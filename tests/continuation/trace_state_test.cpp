@@ -28,7 +28,7 @@ struct State {
 
 TEST(TraceState, IsTheSameAfterSavingAndRestoring) {
   State state;
-  state.state.steps.patience.count_failure();
+  state.state.steps.retries.count_failure();
   state.state.steps.longest_step = 0.25;
   state.state.numbers.partners = {{1, 2}};
   state.state.ended.push_back({state.state.origin.node.tracks[0], 3});

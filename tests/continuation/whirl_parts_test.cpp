@@ -95,7 +95,7 @@ Setting setting_of(const Shaft& shaft, double from, double to, const std::string
 bool has_complex_parts(const Setting& setting) {
   const auto parts = parts_of_family(setting.problem(), setting.options);
   return parts != nullptr && std::any_of(parts->ranges.begin(), parts->ranges.end(),
-                                         [](const auto& range) { return range.chirality != 0; });
+                                         [](const auto& range) { return range.complex_sign != 0; });
 }
 
 /// Expects at all points, and by the dense output between them, the eigenvalues of the complex equations.

@@ -125,7 +125,7 @@ class Site(unittest.TestCase):
         self.open(self.folder / "search.html")
         self.driver.get((self.folder / "search.html").as_uri() + "?q=flutter")
         found = "return document.querySelectorAll('#search-results li a').length"
-        browser.WebDriverWait(self.driver, browser.PATIENCE).until(lambda driver: driver.execute_script(found) > 3)
+        browser.WebDriverWait(self.driver, browser.TIMEOUT).until(lambda driver: driver.execute_script(found) > 3)
 
     def test_pictures_of_the_main_pages(self):
         for scheme, size in (("light", browser.DESKTOP), ("dark", browser.PHONE)):

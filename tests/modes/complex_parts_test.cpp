@@ -8,7 +8,7 @@
 #include <random>
 
 #include "eigentrail/modes/spectrum.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
@@ -35,9 +35,9 @@ struct Rotor {
     C = 0.01 * K - Complex(0.0, coupling) * (S * S.transpose()).cast<Complex>();
   }
 
-  ReducedPencil pencil(int chirality) const {
+  ReducedPencil pencil(int complex_sign) const {
     ReducedPencil result{{canonical(M)}, {canonical(C)}, {canonical(K)}};
-    result.chirality = chirality;
+    result.complex_sign = complex_sign;
     return result;
   }
   std::vector<Complex> eigenvalues() const {
@@ -55,12 +55,12 @@ struct Rotor {
 TEST(ComplexPart, CoordinatesAreThoseOfItsVectors) {
   const ComplexMatrix q = ComplexMatrix::Random(m, 3);
   const Matrix A = canonical(ComplexMatrix::Random(m, m));
-  for (const int chirality : {1, -1}) {
-    const ComplexMatrix Z = from_chiral_coordinates(q, chirality);
-    EXPECT_LT((chiral_coordinates(Z, chirality) - q).norm(), 1e-15 * q.norm());
-    EXPECT_LT(chiral_coordinates(Z, -chirality).norm(), 1e-15 * q.norm());
+  for (const int complex_sign : {1, -1}) {
+    const ComplexMatrix Z = from_complex_coordinates(q, complex_sign);
+    EXPECT_LT((complex_coordinates(Z, complex_sign) - q).norm(), 1e-15 * q.norm());
+    EXPECT_LT(complex_coordinates(Z, -complex_sign).norm(), 1e-15 * q.norm());
     EXPECT_NEAR(Z.norm(), q.norm(), 1e-14 * q.norm());
-    EXPECT_LT((A * Z - from_chiral_coordinates(chiral_block(A, chirality) * q, chirality)).norm(),
+    EXPECT_LT((A * Z - from_complex_coordinates(complex_block(A, complex_sign) * q, complex_sign)).norm(),
               1e-14 * A.norm() * q.norm());
   }
   EXPECT_EQ(canonical_form(A), A);
@@ -70,13 +70,13 @@ TEST(ComplexPart, HasItsOwnEigenvaluesAboveTheRealAxis) {
   for (const double coupling : {0.0, 0.3}) {
     const Rotor rotor(coupling);
     const std::vector<Complex> all = rotor.eigenvalues();
-    for (const int chirality : {1, -1}) {
+    for (const int complex_sign : {1, -1}) {
       std::vector<Complex> expected;
       for (const Complex s : all) {
-        const Complex own = chirality > 0 ? s : std::conj(s);
+        const Complex own = complex_sign > 0 ? s : std::conj(s);
         if (own.imag() > 0.0) expected.push_back(own);
       }
-      const ReducedPencil pencil = rotor.pencil(chirality);
+      const ReducedPencil pencil = rotor.pencil(complex_sign);
       for (const bool with_vectors : {true, false}) {
         const Spectrum spectrum = with_vectors ? compute_spectrum(pencil) : compute_eigenvalues(pencil);
         ASSERT_EQ(spectrum.status, SpectrumStatus::complete);
@@ -86,7 +86,7 @@ TEST(ComplexPart, HasItsOwnEigenvaluesAboveTheRealAxis) {
           found.push_back(mode.s);
           const ComplexVector z = with_vectors ? mode.z : eigenvector_near(pencil, mode.s, 1e-3);
           EXPECT_LT((PencilAtPoint(pencil).matrix(mode.s) * z).norm(), 1e-11 * pencil.K[0].norm());
-          EXPECT_LT(chiral_coordinates(z, -chirality).norm(), 1e-14);
+          EXPECT_LT(complex_coordinates(z, -complex_sign).norm(), 1e-14);
         }
         EXPECT_LT(matched_distance(found, expected), 1e-12);
       }
@@ -101,7 +101,7 @@ TEST(ComplexPart, SubspaceNearAnEigenvalueIsOfThePart) {
   const InvariantPair pair = invariant_subspace(pencil, spectrum.modes[0].s, 1, false);
   EXPECT_LT(std::abs(pair.eigenvalue() - spectrum.modes[0].s), 1e-9);
   EXPECT_LT(PencilAtPoint(pencil).residual(pair.Z, pair.Lambda).norm(), 1e-9 * pencil.K[0].norm());
-  EXPECT_LT(chiral_coordinates(pair.Z, -1).norm(), 1e-14);
+  EXPECT_LT(complex_coordinates(pair.Z, -1).norm(), 1e-14);
 }
 
 /// At rest both halves have the same eigenvalues. The equations of the whole pair are singular there, those
@@ -121,13 +121,13 @@ TEST(ComplexPart, EquationsOfAModeAreRegularWhereBothWhirlsCoincide) {
   ComplexMatrix dZ, ds;
   factors.solve(R, N, dZ, ds);
   // The solution for what of R is in the part.
-  const ComplexMatrix own = from_chiral_coordinates(chiral_coordinates(R, 1), 1);
+  const ComplexMatrix own = from_complex_coordinates(complex_coordinates(R, 1), 1);
   const ComplexVector slope = 2.0 * mode.s * multiply(at.M, mode.z) + multiply(at.C, mode.z);
   EXPECT_LT((at.matrix(mode.s) * dZ + slope * ds(0, 0) - own).norm(), 1e-12 * at.magnitude(std::abs(mode.s)));
   EXPECT_LT(std::abs(mode.z.dot(dZ.col(0)) - N(0, 0)), 1e-12);
-  EXPECT_LT(chiral_coordinates(dZ, -1).norm(), 1e-14 * dZ.norm());
+  EXPECT_LT(complex_coordinates(dZ, -1).norm(), 1e-14 * dZ.norm());
   EXPECT_LT(factors.sensitivity(Vector::Ones(2 * m)).to_residual, 10.0 / slope.norm());
-  // The same without its chirality: the rival that must lose.
+  // The same without its sign: the rival that must lose.
   const ReducedPencil real = rotor.pencil(0);
   const PairFactorization singular(PencilAtPoint(real), mode.z, Lambda, W);
   singular.solve(R, N, dZ, ds);
@@ -157,7 +157,7 @@ TEST(ComplexPart, BlocksAreSolvedWithTheirAdjoints) {
                                multiply(at.M, pair.Z) * (dL * pair.Lambda + pair.Lambda * dL) +
                                multiply(at.C, pair.Z) * dL;
   const ComplexMatrix R = x.head(4 * m).reshaped(2 * m, 2);
-  EXPECT_LT((change - from_chiral_coordinates(chiral_coordinates(R, -1), -1)).norm(), 1e-11 * R.norm());
+  EXPECT_LT((change - from_complex_coordinates(complex_coordinates(R, -1), -1)).norm(), 1e-11 * R.norm());
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
@@ -57,9 +57,9 @@ std::shared_ptr<const IndependentParts> pairs_of(const CoefficientMatrices& all)
   return find_conjugate_parts(all, find_independent_parts(all).get());
 }
 
-std::vector<int> chirality_of(const IndependentParts& parts) {
+std::vector<int> complex_signs_of(const IndependentParts& parts) {
   std::vector<int> all;
-  for (const auto& range : parts.ranges) all.push_back(range.chirality);
+  for (const auto& range : parts.ranges) all.push_back(range.complex_sign);
   return all;
 }
 
@@ -71,7 +71,7 @@ TEST(ConjugateParts, OfAnIsotropicShaftAreFoundInAnyCoordinates) {
     const CoefficientMatrices all = in_coordinates(given, left, right);
     const auto parts = pairs_of(all);
     ASSERT_NE(parts, nullptr);
-    EXPECT_EQ(chirality_of(*parts), std::vector<int>({1, -1}));
+    EXPECT_EQ(complex_signs_of(*parts), std::vector<int>({1, -1}));
     EXPECT_EQ(parts->freedoms(), 10);
     EXPECT_TRUE(parts->falls_apart());
     EXPECT_NE(parts->ranges[0].like, parts->ranges[1].like);
@@ -115,7 +115,7 @@ TEST(ConjugateParts, OfAPencilHaveExactlyTheCanonicalForm) {
   EXPECT_EQ(pencil.size(), 6);
   for (int i = 0; i < 2; ++i) {
     const ReducedPencil& part = pencil.of(i);
-    EXPECT_EQ(part.chirality, i == 0 ? 1 : -1);
+    EXPECT_EQ(part.complex_sign, i == 0 ? 1 : -1);
     for (const auto* series : {&part.M, &part.C, &part.K}) {
       for (const Matrix& A : *series) EXPECT_EQ(A, canonical_form(A));
     }
@@ -125,13 +125,13 @@ TEST(ConjugateParts, OfAPencilHaveExactlyTheCanonicalForm) {
       std::sort(values.begin(), values.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
       return values;
     };
-    const auto block = [&](const Matrix& A) { return chiral_block(A, part.chirality); };
+    const auto block = [&](const Matrix& A) { return complex_block(A, part.complex_sign); };
     // Of K + 0.3 C, which both halves have with its conjugate.
     ComplexMatrix shaft(3, 3);
     const Matrix whole = given.K[0] + 0.3 * (given.C[0] + 0.4 * given.C[1]);
     for (Eigen::Index a = 0; a < 3; ++a) {
       for (Eigen::Index b = 0; b < 3; ++b)
-        shaft(a, b) = Complex(whole(2 * a, 2 * b), part.chirality * whole(2 * a + 1, 2 * b));
+        shaft(a, b) = Complex(whole(2 * a, 2 * b), part.complex_sign * whole(2 * a + 1, 2 * b));
     }
     EXPECT_LT((squares(block(part.M[0]), block(part.K[0]) + 0.3 * block(part.C[0])) -
                squares(ComplexMatrix::Identity(3, 3), shaft))
@@ -179,7 +179,7 @@ TEST(ConjugateParts, AreFoundAmongOtherPartsAndCopies) {
     EXPECT_EQ(parts->freedoms(), 11);
     ASSERT_EQ(parts->count(), 3U);
     const auto pair = std::find_if(parts->ranges.begin(), parts->ranges.end(),
-                                   [](const auto& range) { return range.chirality > 0; });
+                                   [](const auto& range) { return range.complex_sign > 0; });
     ASSERT_NE(pair, parts->ranges.end());
     ASSERT_EQ(pair->copies.size(), 1U);
     EXPECT_LT(((pair + 1)->copies[0].right - pair->copies[0].right).norm(), rounding);
@@ -200,10 +200,10 @@ TEST(ConjugateParts, JoinedAreRealPartsInTheSameCoordinates) {
   ASSERT_NE(parts, nullptr);
   std::vector<int> numbers;
   const auto kept = joined_pairs(*parts, {false, false}, numbers);
-  EXPECT_EQ(chirality_of(*kept), std::vector<int>({1, -1}));
+  EXPECT_EQ(complex_signs_of(*kept), std::vector<int>({1, -1}));
   EXPECT_EQ(numbers, std::vector<int>({0, 1}));
   const auto joined = joined_pairs(*parts, {true, true}, numbers);
-  EXPECT_EQ(chirality_of(*joined), std::vector<int>({0}));
+  EXPECT_EQ(complex_signs_of(*joined), std::vector<int>({0}));
   EXPECT_EQ(numbers, std::vector<int>({0, 0}));
   EXPECT_EQ(joined->right, parts->right);
   EXPECT_EQ(joined->freedoms(), parts->freedoms());

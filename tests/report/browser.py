@@ -11,7 +11,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 DESKTOP, PHONE = (1400, 1000), (390, 844)
 ARGUMENTS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
              "--force-device-scale-factor=1", "--force-prefers-reduced-motion")
-PATIENCE = 30.0
+TIMEOUT = 30.0
 
 
 def start():
@@ -34,7 +34,7 @@ def show(driver, path, size=DESKTOP):
         driver.get_log("browser")
     resize(driver, size)
     driver.get(path.as_uri())
-    WebDriverWait(driver, PATIENCE).until(lambda d: d.execute_script(
+    WebDriverWait(driver, TIMEOUT).until(lambda d: d.execute_script(
         "return window.report && [...document.querySelectorAll('.chart')].every((chart) => chart._fullLayout)"))
 
 

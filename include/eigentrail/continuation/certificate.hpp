@@ -9,9 +9,9 @@
 // are evaluated at sample points of the piece. If some r > 0 satisfies Y + Z1 r + Z2 r^2/2 <= r, exactly one
 // pair lies within r of U(t), on the whole piece. Any norm serves; one that belongs to the piece makes the
 // bounds far smaller where eigenvalues are sensitive or stiffnesses far apart (energy_norm.hpp,
-// adapted_norm.hpp, modal_bounds.hpp). This neighbourhood
-// of U(t) is called the tube, and the tube closes if there is such an r. Pieces on which it does not close
-// are halved. If it closes on all pieces, no other pair can have been exchanged with this one.
+// adapted_norm.hpp, modal_bounds.hpp). The pairs within r are the Newton-Kantorovich ball about U(t), and the
+// test closes if there is such an r. Pieces on which it does not close are halved. If it closes on all
+// pieces, no other pair can have been exchanged with this one.
 //
 // The bounds are sampled, and norms are estimated by power iteration. The result is evidence, not a proof by
 // interval arithmetic.
@@ -82,11 +82,10 @@ class StepPencil {
   mutable std::optional<std::optional<Eigen::Index>> width_;
 };
 
-/// Whether the tube closes on the whole step from `left` to `right`, which are the same track at both ends.
+/// Whether the test closes on the whole step from `left` to `right`, which are the same track at both ends.
 /// `gap` is the distance to the nearest other known eigenvalue. It scales Lambda against Z in the norm of the
 /// unknowns (vec Z, vec Lambda / scale), scale = gap / 2 within limits. Factorizations are added to `counts`.
-/// `gave_up`, if given, is set to whether the tube was not followed to the end because it takes too much
-/// work.
+/// `gave_up`, if given, is set to whether the test was not carried to its end because it takes too much work.
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
                   RunCounts& counts, bool* gave_up = nullptr);
 

@@ -1,9 +1,10 @@
 // The independent parts of a family on the range of a trace, conjugate pairs of complex parts included
-// (chirality.hpp).
+// (complex_blocks.hpp).
 //
 // A complex part has eigenvalues on both sides of the real axis. Those below are the conjugates of modes of
-// its twin. While none of them is near the axis, the modes with Im s >= 0 of both are all modes of the pair.
-// A mode that passes through the axis would go over to the twin. Such a pair is followed as one real part.
+// its conjugate part. While none of them is near the axis, the modes with Im s >= 0 of both are all modes of
+// the pair. A mode that passes through the axis would go over to the conjugate part. Such a pair is followed
+// as one real part.
 #pragma once
 
 #include <memory>

@@ -18,9 +18,9 @@ struct Track {
   /// Entry of `modes` for a member of a block that has no mode number: the member of a complex pair with
   /// Im s < 0 in a block that holds both.
   static constexpr int no_mode = -1;
-  /// Entry of `modes` for an eigenvalue that is not followed, but belongs to the block because it is too
-  /// close to a followed one.
-  static constexpr int guest = -2;
+  /// Entry of `modes` for a guard mode, an eigenvalue that is not followed, but belongs to the block because
+  /// it is too close to a followed one.
+  static constexpr int guard = -2;
 
   InvariantPair pair;       ///< in reduced coordinates
   PairSeries series;        ///< Z in physical coordinates, V = T Z

@@ -21,7 +21,7 @@
 #include "eigentrail/core/complex_lu.hpp"
 #include "eigentrail/core/real_lu.hpp"
 #include "eigentrail/modes/pencil_at_point.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 
 namespace eigentrail {
 
@@ -49,9 +49,9 @@ struct ModeCounts {
   ModeCounts& operator+=(const ModeCounts& other);
 };
 
-/// LU factors of a bordered matrix with n + k rows. In a complex part (chirality.hpp) it is restricted to the
-/// n / 2 dimensions of its vectors: the solution is the inverse there, and what is beside them is dropped.
-/// Where the pencil is banded, so are the factors.
+/// LU factors of a bordered matrix with n + k rows. In a complex part (complex_blocks.hpp) it is restricted
+/// to the n / 2 dimensions of its vectors: the solution is the inverse there, and what is beside them is
+/// dropped. Where the pencil is banded, so are the factors.
 class BorderedLu {
  public:
   /// Factors [P, X; Y, D]: `pencil` at mu, n x n, the columns X (n x k), the rows Y (k x n) and D (k x k).
@@ -73,7 +73,7 @@ class BorderedLu {
   ComplexMatrix restricted(const ComplexMatrix& b) const;
 
   Eigen::Index n_, k_;
-  int chirality_;
+  int complex_sign_;
   std::shared_ptr<const BorderedBand> banded_;  ///< null where the pencil is not banded
   std::optional<ComplexLu> lu_;                 ///< empty where it is
 };

@@ -34,7 +34,7 @@ struct PencilAtPoint {
   const Matrix& C;
   const Matrix& K;
   double norm_M, norm_C, norm_K;  ///< Frobenius norms
-  int chirality;                  ///< of a complex part (chirality.hpp); else 0
+  int complex_sign;               ///< of a complex part (complex_blocks.hpp); else 0
   PencilBands bands = {};         ///< the same matrices: products with them and factors take less time
 
   explicit PencilAtPoint(const ReducedPencil& pencil, Chart chart = Chart::finite);

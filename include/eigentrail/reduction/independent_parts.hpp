@@ -36,9 +36,9 @@ struct IndependentParts {
     /// Index of the first part with the same eigenvalues throughout; its own if there is none before it.
     std::size_t like = 0;
     std::vector<PartCopy> copies = {};  ///< parts that this one stands for, besides itself
-    /// +1 or -1 for the two halves of a conjugate pair of complex parts (chirality.hpp), which have the same
-    /// coordinates, canonical ones; -1 follows +1. 0 for a real part.
-    int chirality = 0;
+    /// +1 or -1 for the two halves of a conjugate pair of complex parts (complex_blocks.hpp), which have the
+    /// same coordinates, canonical ones; -1 follows +1. 0 for a real part.
+    int complex_sign = 0;
   };
 
   Matrix right;    ///< n x n'

@@ -13,8 +13,8 @@ struct ReducedPencil {
   MatrixSeries K;  ///< T^T (K + (A^T lambda)_/x) T
   /// Its diagonal blocks, where the equations fall apart into more than one part (independent_parts.hpp).
   std::vector<ReducedPencil> parts = {};
-  int copies = 0;     ///< number of further parts that have the same equations, and are not among `parts`
-  int chirality = 0;  ///< of a complex part (chirality.hpp); else 0
+  int copies = 0;        ///< number of further parts that have the same equations, and are not among `parts`
+  int complex_sign = 0;  ///< of a complex part (complex_blocks.hpp); else 0
 
   /// The equations of one part; all of them where they do not fall apart.
   const ReducedPencil& of(int part) const {

@@ -7,22 +7,22 @@
 #include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "eigentrail/core/complex_lu.hpp"
-#include "eigentrail/reduction/chirality.hpp"
+#include "eigentrail/reduction/complex_blocks.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 namespace eigentrail {
 
 /// Number of dimensions in which the eigenvectors of a pencil are looked for: those of a complex part are in
-/// its complex coordinates here (chirality.hpp).
+/// its complex coordinates here (complex_blocks.hpp).
 inline Eigen::Index dimensions_of(const ReducedPencil& pencil) {
-  return pencil.chirality == 0 ? pencil.size() : pencil.size() / 2;
+  return pencil.complex_sign == 0 ? pencil.size() : pencil.size() / 2;
 }
 
 /// Writes a matrix into a block; of a complex part, the matrix in its complex coordinates.
-inline void write_matrix(const Matrix& real, const Matrix& imag, int chirality,
+inline void write_matrix(const Matrix& real, const Matrix& imag, int complex_sign,
                          Eigen::Ref<ComplexMatrix> block) {
-  if (chirality != 0) {
-    block = chiral_block(real, chirality) + Complex(0.0, 1.0) * chiral_block(imag, chirality);
+  if (complex_sign != 0) {
+    block = complex_block(real, complex_sign) + Complex(0.0, 1.0) * complex_block(imag, complex_sign);
     return;
   }
   block.real() = real;
@@ -33,8 +33,8 @@ inline void write_matrix(const Matrix& real, const Matrix& imag, int chirality,
 /// to.
 class SeriesAt {
  public:
-  SeriesAt(const MatrixSeries& series, Complex h, int chirality)
-      : series_(series), h_(h), chirality_(chirality) {}
+  SeriesAt(const MatrixSeries& series, Complex h, int complex_sign)
+      : series_(series), h_(h), complex_sign_(complex_sign) {}
 
   /// Adds `factor` times the matrix.
   void add_to(Complex factor, Matrix& real, Matrix& imag) const {
@@ -52,7 +52,7 @@ class SeriesAt {
     ComplexMatrix value, slope, curvature;
   };
   Jet times(const ComplexMatrix& v) const {
-    if (chirality_ != 0) return within(jet_of(from_chiral_coordinates(v, chirality_)));
+    if (complex_sign_ != 0) return within(jet_of(from_complex_coordinates(v, complex_sign_)));
     return jet_of(v);
   }
 
@@ -69,24 +69,24 @@ class SeriesAt {
     return jet;
   }
   Jet within(const Jet& jet) const {
-    return {chiral_coordinates(jet.value, chirality_), chiral_coordinates(jet.slope, chirality_),
-            chiral_coordinates(jet.curvature, chirality_)};
+    return {complex_coordinates(jet.value, complex_sign_), complex_coordinates(jet.slope, complex_sign_),
+            complex_coordinates(jet.curvature, complex_sign_)};
   }
 
   const MatrixSeries& series_;
   Complex h_;
-  int chirality_;
+  int complex_sign_;
 };
 
 /// P(mu, h) = mu^2 A + mu B + C with its derivatives.
 class PencilAt {
  public:
   PencilAt(const ReducedPencil& pencil, Chart chart, Complex h)
-      : second_(chart == Chart::finite ? pencil.M : pencil.K, h, pencil.chirality),
-        first_(pencil.C, h, pencil.chirality),
-        zeroth_(chart == Chart::finite ? pencil.K : pencil.M, h, pencil.chirality),
+      : second_(chart == Chart::finite ? pencil.M : pencil.K, h, pencil.complex_sign),
+        first_(pencil.C, h, pencil.complex_sign),
+        zeroth_(chart == Chart::finite ? pencil.K : pencil.M, h, pencil.complex_sign),
         size_(pencil.size()),
-        chirality_(pencil.chirality) {}
+        complex_sign_(pencil.complex_sign) {}
 
   /// Writes P into a block.
   void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const {
@@ -94,7 +94,7 @@ class PencilAt {
     second_.add_to(mu * mu, real, imag);
     first_.add_to(mu, real, imag);
     zeroth_.add_to(1.0, real, imag);
-    write_matrix(real, imag, chirality_, block);
+    write_matrix(real, imag, complex_sign_, block);
   }
 
   /// The products of derivatives of P with vectors.
@@ -122,7 +122,7 @@ class PencilAt {
  private:
   SeriesAt second_, first_, zeroth_;
   Eigen::Index size_;
-  int chirality_;
+  int complex_sign_;
 };
 
 /// The same at one h, for many mu: its matrices are computed once, and only the derivative by mu is known.
@@ -130,9 +130,9 @@ class FixedPencil {
  public:
   FixedPencil(const ReducedPencil& pencil, Chart chart, Complex h)
       : n_(dimensions_of(pencil)), terms_(n_ * n_, 3) {
-    set(0, chart == Chart::finite ? pencil.M : pencil.K, h, pencil.chirality);
-    set(1, pencil.C, h, pencil.chirality);
-    set(2, chart == Chart::finite ? pencil.K : pencil.M, h, pencil.chirality);
+    set(0, chart == Chart::finite ? pencil.M : pencil.K, h, pencil.complex_sign);
+    set(1, pencil.C, h, pencil.complex_sign);
+    set(2, chart == Chart::finite ? pencil.K : pencil.M, h, pencil.complex_sign);
   }
 
   void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const { block = sum(mu * mu, mu, 1.0); }
@@ -142,11 +142,11 @@ class FixedPencil {
   }
 
  private:
-  void set(Eigen::Index term, const MatrixSeries& series, Complex h, int chirality) {
+  void set(Eigen::Index term, const MatrixSeries& series, Complex h, int complex_sign) {
     Matrix real = Matrix::Zero(series[0].rows(), series[0].cols()), imag = real;
-    SeriesAt(series, h, chirality).add_to(1.0, real, imag);
+    SeriesAt(series, h, complex_sign).add_to(1.0, real, imag);
     ComplexMatrix matrix(n_, n_);
-    write_matrix(real, imag, chirality, matrix);
+    write_matrix(real, imag, complex_sign, matrix);
     terms_.col(term) = matrix.reshaped();
   }
 

@@ -6,7 +6,7 @@
 
 #include "continuation/events/event_search.hpp"
 #include "continuation/step/step.hpp"
-#include "continuation/tracks/strands.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 
 namespace eigentrail {
 
@@ -55,7 +55,7 @@ class CriteriaOnStep {
  private:
   const Track& track_;
   const RoundingThresholds& thresholds_;
-  StrandSampler roots_;
+  EigenvalueSampler roots_;
   const HermiteInterpolant& excitation_;
   double rounding_at_ = NAN;  ///< place of `roundings_`
   Vector roundings_;          ///< those of all members there

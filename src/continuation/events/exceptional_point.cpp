@@ -157,8 +157,8 @@ namespace {
 
 /// The eigenvector, in the coordinates of the pencil.
 ComplexVector vector_of(const ReducedPencil& pencil, const Bordered& bordered) {
-  if (pencil.chirality == 0) return bordered.vector();
-  return from_chiral_coordinates(bordered.vector(), pencil.chirality);
+  if (pencil.complex_sign == 0) return bordered.vector();
+  return from_complex_coordinates(bordered.vector(), pencil.complex_sign);
 }
 
 }  // namespace

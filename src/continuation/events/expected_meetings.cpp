@@ -23,9 +23,9 @@ namespace {
 /// In steps: largest distance from the real axis of a root of a gap that can be a meeting on the axis.
 constexpr double looked_into = 0.1;
 
-/// Whether a mode, and not only a conjugate or a guest, is among the strand's eigenvalues.
-bool stands_for_a_mode(const Track& track, const Strand& strand) {
-  return std::any_of(strand.members.begin(), strand.members.end(),
+/// Whether a mode, and not only a conjugate or a guard mode, is among the eigenvalues of the branch.
+bool stands_for_a_mode(const Track& track, const EigenvalueBranch& branch) {
+  return std::any_of(branch.members.begin(), branch.members.end(),
                      [&](int i) { return track.modes[static_cast<std::size_t>(i)] >= 0; });
 }
 
@@ -75,8 +75,8 @@ double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t tr
 
 /// The stretch of a step on which rounding does not hide two eigenvalues of a track: not beside a meeting of
 /// many at either end in which both take part.
-Stretch where_told_apart(const Track& left, const Track& right, double length, const Strand& a,
-                         const Strand& b) {
+Stretch where_told_apart(const Track& left, const Track& right, double length, const EigenvalueBranch& a,
+                         const EigenvalueBranch& b) {
   Stretch stretch;
   if (have_just_met(left, a.members, b.members)) stretch.from = left.hidden_within / std::abs(length);
   if (have_just_met(right, a.members, b.members)) stretch.to = 1.0 - right.hidden_within / std::abs(length);
@@ -85,7 +85,7 @@ Stretch where_told_apart(const Track& left, const Track& right, double length, c
 
 /// Where all eigenvalues of a track collide on a step; empty where they do not. What they do at the left end
 /// is known.
-std::optional<PlaceOnStep> common_place(const Track& track, const StrandSampler& sampler) {
+std::optional<PlaceOnStep> common_place(const Track& track, const EigenvalueSampler& sampler) {
   // In steps: nearer to the left end it is the known one.
   constexpr double behind_a_meeting = 1e-3;
   const double lambda = rounding_of(track, track.series.Lambda).lambda;
@@ -115,29 +115,29 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
     const Track& track = left.tracks[i];
     if (track.size() < 2) continue;
-    StrandSampler sampler(left, right, i, length);
+    EigenvalueSampler sampler(left, right, i, length);
     double up_to = 1.0;
     if (const auto place = search.common ? common_place(track, sampler) : std::nullopt) {
       meetings.push_back(expected_of_all(track, i, place->t * length));
       first_roots.found(place->t);
       up_to = place->t - place->hidden_within;
     }
-    const std::vector<Strand> strands = strands_of(track, i, sampler);
-    for (std::size_t a = 0; a < strands.size(); ++a) {
+    const std::vector<EigenvalueBranch> branches = eigenvalue_branches_of(track, i, sampler);
+    for (std::size_t a = 0; a < branches.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
-        Stretch stretch = where_told_apart(track, right.tracks[i], length, strands[a], strands[b]);
+        Stretch stretch = where_told_apart(track, right.tracks[i], length, branches[a], branches[b]);
         stretch.to = std::min(stretch.to, up_to);
         if (stretch.from >= stretch.to) continue;
-        const bool has_just_met = have_just_met(track, strands[a].members, strands[b].members);
+        const bool has_just_met = have_just_met(track, branches[a].members, branches[b].members);
         const double first = has_just_met ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(), looked_into,
+        RootsOnStep roots(sampler, branches[a].members.front(), branches[b].members.front(), looked_into,
                           stretch);
         std::vector<double> found;
         for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
         if (stretch.from == 0.0)
-          add_near_left_end(track, strands[a].members, strands[b].members, length, found);
+          add_near_left_end(track, branches[a].members, branches[b].members, length, found);
         if (!stretch.is_whole()) {
           std::erase_if(found, [&](double position) {
             const double t = position / length;
@@ -145,7 +145,7 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
           });
         }
         for (const double position : found) {
-          meetings.push_back({strands[b], strands[a], position});
+          meetings.push_back({branches[b], branches[a], position});
           meetings.back().doubt = doubt_of_root(left, right, i, length, position);
           meetings.back().has_just_met = has_just_met;
         }
@@ -160,25 +160,26 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
 
 namespace {
 
-/// Series of the eigenvalue of a strand at one end, the mean of all that coincide. Empty when these cannot be
+/// Series of an eigenvalue branch at one end, the mean of all that coincide. Empty when these cannot be
 /// separated from the others of the block.
-ComplexVector strand_series(const Track& track, const Strand& strand) {
+ComplexVector eigenvalue_branch_series(const Track& track, const EigenvalueBranch& branch) {
   if (track.size() == 1) return track.functions.row(0).transpose();
   std::vector<Complex> roots;
-  for (const int i : strand.members) roots.push_back(track.roots[i]);
+  for (const int i : branch.members) roots.push_back(track.roots[i]);
   const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
   return part.empty() ? ComplexVector() : mean_series(part);
 }
 
-/// The eigenvalue of a strand at one end, and a bound of its change, by the series, within a distance
+/// The value of an eigenvalue branch at one end, and a bound of its change, by the series, within a distance
 /// `reach`.
 struct MovingMean {
-  MovingMean(const Track& track, const Strand& strand, double reach) : series(strand_series(track, strand)) {
+  MovingMean(const Track& track, const EigenvalueBranch& branch, double reach)
+      : series(eigenvalue_branch_series(track, branch)) {
     double power = 1.0;
     for (Eigen::Index k = 1; k < series.size(); ++k) moves += std::abs(series[k]) * (power *= reach);
   }
 
-  ComplexVector series;  ///< as strand_series
+  ComplexVector series;  ///< as eigenvalue_branch_series
   double moves = 0.0;    ///< sum of |c_k| reach^k for k >= 1
 };
 
@@ -191,27 +192,28 @@ bool stay_apart(const MovingMean& a, const MovingMean& b) {
   return a.moves + b.moves < share * std::abs(a.series[0] - b.series[0]);
 }
 
-/// A strand with its eigenvalue at both ends of the step.
-struct SeenStrand {
-  Strand strand;
+/// An eigenvalue branch with its values at both ends of the step.
+struct SeenEigenvalueBranch {
+  EigenvalueBranch branch;
   MovingMean left, right;
 };
 
-/// The strands with their eigenvalues; `reach` as in MovingMean.
-std::vector<SeenStrand> seen_from_both_ends(std::vector<Strand> strands, const PathNode& left,
-                                            const PathNode& right, double reach) {
-  std::vector<SeenStrand> seen;
-  for (Strand& strand : strands) {
-    MovingMean from(left.tracks[strand.track], strand, reach);
-    MovingMean to(right.tracks[strand.track], strand, reach);
-    seen.push_back({std::move(strand), std::move(from), std::move(to)});
+/// The eigenvalue branches with their values at both ends; `reach` as in MovingMean.
+std::vector<SeenEigenvalueBranch> seen_from_both_ends(std::vector<EigenvalueBranch> branches,
+                                                      const PathNode& left, const PathNode& right,
+                                                      double reach) {
+  std::vector<SeenEigenvalueBranch> seen;
+  for (EigenvalueBranch& branch : branches) {
+    MovingMean from(left.tracks[branch.track], branch, reach);
+    MovingMean to(right.tracks[branch.track], branch, reach);
+    seen.push_back({std::move(branch), std::move(from), std::move(to)});
   }
   return seen;
 }
 
-/// Series of the gap of two strands at one end; empty when it is not known.
-ComplexVector gap_at(const PathNode& node, const Strand& a, const MovingMean& mean_a, const Strand& b,
-                     const MovingMean& mean_b) {
+/// Series of the gap of two eigenvalue branches at one end; empty when it is not known.
+ComplexVector gap_at(const PathNode& node, const EigenvalueBranch& a, const MovingMean& mean_a,
+                     const EigenvalueBranch& b, const MovingMean& mean_b) {
   if (a.track == b.track) return discriminant_of(node.tracks[a.track], a.members, b.members);
   if (mean_a.series.size() == 0 || mean_b.series.size() == 0) return {};
   return discriminant_series(mean_a.series, mean_b.series);
@@ -273,12 +275,12 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   return roots;
 }
 
-/// Whether the gap of two strands is no power series at an end of a step, because one of them meets another
-/// eigenvalue of its block there: it varies like a root.
-bool is_singular_at(const PathNode& node, const Strand& a, const Strand& b) {
-  for (const Strand* strand : {&a, &b}) {
-    const std::vector<int>& met = node.tracks[strand->track].met;
-    const std::vector<int> own = a.track == b.track ? united(a.members, b.members) : strand->members;
+/// Whether the gap of two eigenvalue branches is no power series at an end of a step, because one of them
+/// meets another eigenvalue of its block there: it varies like a root.
+bool is_singular_at(const PathNode& node, const EigenvalueBranch& a, const EigenvalueBranch& b) {
+  for (const EigenvalueBranch* branch : {&a, &b}) {
+    const std::vector<int>& met = node.tracks[branch->track].met;
+    const std::vector<int> own = a.track == b.track ? united(a.members, b.members) : branch->members;
     const auto is_own = [&](int i) { return std::find(own.begin(), own.end(), i) != own.end(); };
     if (std::any_of(met.begin(), met.end(), is_own) && !std::all_of(met.begin(), met.end(), is_own))
       return true;
@@ -316,7 +318,7 @@ class GapsOnStep {
 
   /// Whether a parabola is about the gap below its root on the real axis. Most parabolas, and their roots,
   /// are not: the gap has changed otherwise on the way.
-  bool agree(const Strand& a, const Strand& b, const RoughRoot& root) {
+  bool agree(const EigenvalueBranch& a, const EigenvalueBranch& b, const RoughRoot& root) {
     constexpr double about = 0.15;  // a root at a wrong place costs time, a root that is left out an event
     const double t = root.position.real() / length_;
     if (!(t >= -behind_the_step(0.0) && t <= 1.0 + off_the_ends)) return false;
@@ -326,17 +328,17 @@ class GapsOnStep {
   }
 
  private:
-  Complex value(const Strand& strand, double t) {
-    auto known = samplers_.find(strand.track);
+  Complex value(const EigenvalueBranch& branch, double t) {
+    auto known = samplers_.find(branch.track);
     if (known == samplers_.end())
-      known = samplers_.try_emplace(strand.track, left_, right_, strand.track, length_).first;
-    return known->second(std::clamp(t, 0.0, 1.0))[strand.members.front()];
+      known = samplers_.try_emplace(branch.track, left_, right_, branch.track, length_).first;
+    return known->second(std::clamp(t, 0.0, 1.0))[branch.members.front()];
   }
 
   const PathNode& left_;
   const PathNode& right_;
   double length_;
-  std::map<std::size_t, StrandSampler> samplers_;
+  std::map<std::size_t, EigenvalueSampler> samplers_;
 };
 
 }  // namespace
@@ -353,7 +355,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
   constexpr double margin_of_width = 1.1;
   const double widest = margin_of_width * width;
   std::vector<ExpectedMeeting> meetings;
-  const auto expect = [&](const Strand& a, const Strand& b, Complex position,
+  const auto expect = [&](const EigenvalueBranch& a, const EigenvalueBranch& b, Complex position,
                           const ComplexVector& at_left = {}, const ComplexVector& at_right = {}) {
     const double t = position.real() / length;
     const double off_axis = std::abs(position.imag());
@@ -368,33 +370,33 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
     if (t > -behind && t < 1.0 + off_the_ends && off_axis <= widest)
       meetings.push_back({a, b, position, at_left, at_right});
   };
-  std::vector<Strand> strands;
+  std::vector<EigenvalueBranch> branches;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
     const Track& track = left.tracks[i];
     if (track.size() == 1) {
-      strands.push_back({i, {0}});
+      branches.push_back({i, {0}});
       continue;
     }
-    StrandSampler sampler(left, right, i, length);
-    const std::size_t before = strands.size();
-    for (Strand& strand : strands_of(track, i, sampler)) {
-      if (stands_for_a_mode(track, strand)) strands.push_back(std::move(strand));
+    EigenvalueSampler sampler(left, right, i, length);
+    const std::size_t before = branches.size();
+    for (EigenvalueBranch& branch : eigenvalue_branches_of(track, i, sampler)) {
+      if (stands_for_a_mode(track, branch)) branches.push_back(std::move(branch));
     }
     if (track.size() == 2) continue;
-    for (std::size_t a = before; a < strands.size(); ++a) {
+    for (std::size_t a = before; a < branches.size(); ++a) {
       for (std::size_t b = before; b < a; ++b) {
-        const Stretch stretch = where_told_apart(track, right.tracks[i], length, strands[a], strands[b]);
+        const Stretch stretch = where_told_apart(track, right.tracks[i], length, branches[a], branches[b]);
         if (stretch.from >= stretch.to) continue;
-        RootsOnStep roots(sampler, strands[a].members.front(), strands[b].members.front(),
+        RootsOnStep roots(sampler, branches[a].members.front(), branches[b].members.front(),
                           widest / std::abs(length), stretch);
         for (const Complex t : roots.find()) {
-          if (roots.is_closest(t)) expect(strands[b], strands[a], t * length);
+          if (roots.is_closest(t)) expect(branches[b], branches[a], t * length);
         }
       }
     }
   }
-  const std::vector<SeenStrand> seen =
-      seen_from_both_ends(std::move(strands), left, right, reach_of(length, width));
+  const std::vector<SeenEigenvalueBranch> seen =
+      seen_from_both_ends(std::move(branches), left, right, reach_of(length, width));
   GapsOnStep hints(left, right, length);
   for (const auto& [a, left_a, right_a] : seen) {
     for (const auto& [b, left_b, right_b] : seen) {

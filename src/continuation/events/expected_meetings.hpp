@@ -7,7 +7,7 @@ namespace eigentrail {
 
 /// A predicted meeting of the eigenvalues a and b.
 struct ExpectedMeeting {
-  Strand a, b;
+  EigenvalueBranch a, b;
   Complex position;  ///< distance from the left end; complex beside the real axis
   /// Series of ((s_a - s_b) / 2)^2 at both ends; empty where not known.
   ComplexVector discriminant_at_left = {}, discriminant_at_right = {};

@@ -35,16 +35,16 @@ bool passes_infinity(const Step& step) {
   return false;
 }
 
-/// Number of guests that a step takes in or lets go. A real mode that meets one is one complex pair with it,
-/// and where guests cross the axis is not looked for: each may change the number of growing eigenvalues by
-/// one.
-int guests_that_change(const Step& step) {
-  const auto guests = [](const Track& track) {
-    return static_cast<int>(std::count(track.modes.begin(), track.modes.end(), Track::guest));
+/// Number of guard modes that a step takes in or lets go. A real mode that meets one is one complex pair with
+/// it, and where guard modes cross the axis is not looked for: each may change the number of growing
+/// eigenvalues by one.
+int guards_that_change(const Step& step) {
+  const auto guards = [](const Track& track) {
+    return static_cast<int>(std::count(track.modes.begin(), track.modes.end(), Track::guard));
   };
   int changes = 0;
   for (std::size_t i = 0; i < step.left->tracks.size(); ++i)
-    changes += std::abs(guests(step.right.tracks[i]) - guests(step.left->tracks[i]));
+    changes += std::abs(guards(step.right.tracks[i]) - guards(step.left->tracks[i]));
   return changes;
 }
 
@@ -55,7 +55,7 @@ std::optional<int> growing_eigenvalues(const EventSearch& search, const PathNode
   for (const Track& track : node.tracks) {
     const Vector errors = rounding_of_roots(track, search.thresholds().rounding);
     for (Eigen::Index i = 0; i < track.size(); ++i) {
-      if (track.modes[static_cast<std::size_t>(i)] == Track::guest) continue;
+      if (track.modes[static_cast<std::size_t>(i)] == Track::guard) continue;
       const Complex mu = track.roots[i];
       if (std::abs(mu.real()) <= errors[i]) return std::nullopt;
       // A real block holds the conjugates itself.
@@ -81,7 +81,7 @@ std::optional<std::string> unexplained_growth(const EventSearch& search, const S
     if (event.p > low) change += *here;
   }
   const int seen = step.right.p > step.left->p ? *behind - *before : *before - *behind;
-  if (std::abs(seen - change) <= guests_that_change(step)) return std::nullopt;
+  if (std::abs(seen - change) <= guards_that_change(step)) return std::nullopt;
   std::ostringstream end;
   end.precision(12);
   end << high;

@@ -134,7 +134,7 @@ class MeetingLanding {
   Approach land_as_told(const ExpectedMeeting& expected);
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
   LandingSight look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                         StrandSampler& strands, double& earlier, double& rounding);
+                         EigenvalueSampler& branches, double& earlier, double& rounding);
   Meeting seen_from(const Track& track, const ExpectedMeeting& expected) const {
     return expected.is_of_all
                ? meeting_of_all(track, step_.h)
@@ -202,7 +202,7 @@ MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& exp
 /// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
 /// digits.
 LandingSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                                       StrandSampler& strands, double& earlier, double& rounding) {
+                                       EigenvalueSampler& branches, double& earlier, double& rounding) {
   const double h = step_.h;
   const std::size_t index = expected.a.track;
   Track there;
@@ -213,7 +213,7 @@ LandingSight MeetingLanding::look_from(double distance, const ExpectedMeeting& e
     if (!point) return {LandingSight::Kind::failed};
     there = std::move(point->node.tracks.front());
   }
-  if (!expected.is_of_all) there.roots = in_order_of(strands(distance / h), there.roots);
+  if (!expected.is_of_all) there.roots = in_order_of(branches(distance / h), there.roots);
   const Meeting meeting = seen_from(there, expected);
   if (!meeting.found) return {LandingSight::Kind::absent};
   rounding = meeting.rounding;
@@ -239,7 +239,7 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
   const double resolution = frame.plane
                                 ? landing_accuracy
                                 : landing_accuracy * std::max(frame.range.length(), std::abs(step_.left->p));
-  StrandSampler strands(*step_.left, step_.right, expected.a.track, h);
+  EigenvalueSampler branches(*step_.left, step_.right, expected.a.track, h);
   std::optional<double> later;  // a meeting that was located before one in front of it was looked for
   const auto no_other = [&] {
     if (!later) return Approach::nothing;
@@ -252,7 +252,7 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     WalkRules rules;
     const auto look = [&](double at) {
       double rounding = 0.0;
-      const LandingSight sight = look_from(at, expected, trusting, strands, earlier, rounding);
+      const LandingSight sight = look_from(at, expected, trusting, branches, earlier, rounding);
       rules.rounding = std::max(at_point_, rounding);
       own_end = sight.kind == LandingSight::Kind::settled;
       return sight;

@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "continuation/events/meeting.hpp"
-#include "continuation/tracks/strands.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 #include "eigentrail/continuation/thresholds.hpp"
 
 namespace eigentrail {
 
-/// The meeting of two strands of a block (indices of their roots) that is nearest to the point. Other
-/// eigenvalues of the block that are as close as the two are to each other may take part in it. `reach`:
-/// length scale of the search, such as the length of the step; roots farther away than twice this do not
-/// count.
+/// The meeting of two eigenvalue branches of a block (indices of their roots) that is nearest to the point.
+/// Other eigenvalues of the block that are as close as the two are to each other may take part in it.
+/// `reach`: length scale of the search, such as the length of the step; roots farther away than twice this do
+/// not count.
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach, const MeetingThresholds& thresholds = {});
 

@@ -8,8 +8,8 @@
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/nearby_mode.hpp"
 #include "continuation/events/walk.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 #include "continuation/tracks/members.hpp"
-#include "continuation/tracks/strands.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
@@ -54,7 +54,7 @@ std::vector<SampledMode> sampled_modes(const Step& step) {
   std::vector<SampledMode> all;
   for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
     const Track& track = step.left->tracks[i];
-    StrandSampler sampler(*step.left, step.right, i, step.h);
+    EigenvalueSampler sampler(*step.left, step.right, i, step.h);
     const std::size_t first = all.size();
     for (const int mode : track.modes) all.push_back({i, mode, {}});
     for (std::size_t k = 0; k < sample_points().size(); ++k) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "continuation/tracks/strands.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 
 namespace eigentrail {
@@ -40,7 +40,7 @@ class RootsOnStep {
  public:
   /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `stretch`: what
   /// is looked at of the step.
-  RootsOnStep(StrandSampler& sampler, int a, int b, double off_axis, const Stretch& stretch)
+  RootsOnStep(EigenvalueSampler& sampler, int a, int b, double off_axis, const Stretch& stretch)
       : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), stretch_(stretch) {}
 
   /// All roots, in shares of the step.
@@ -68,7 +68,7 @@ class RootsOnStep {
   void search(double begin, double end);
   void add(Complex root);
 
-  StrandSampler& sampler_;
+  EigenvalueSampler& sampler_;
   int a_, b_;
   double off_axis_;
   Stretch stretch_;

@@ -118,10 +118,10 @@ class PencilSearch {
     const Complex t = distance / step_.h;
     Complex sum = 0.0;
     double count = 0.0;
-    for (const Strand* strand : {&expected_.a, &expected_.b}) {
-      const Eigen::Index size = step_.left->tracks[strand->track].size();
-      StrandSampler sampler(*step_.left, step_.right, strand->track, step_.h);
-      for (const int member : strand->members) {
+    for (const EigenvalueBranch* branch : {&expected_.a, &expected_.b}) {
+      const Eigen::Index size = step_.left->tracks[branch->track].size();
+      EigenvalueSampler sampler(*step_.left, step_.right, branch->track, step_.h);
+      for (const int member : branch->members) {
         sum += size <= 2 ? sampler.functions()(t)[0] : sampler(position_ / step_.h)[member];
         count += 1.0;
       }
@@ -130,9 +130,9 @@ class PencilSearch {
   }
 
   /// A predicted eigenvalue at the point.
-  Complex value_of(const Strand& strand) const {
-    StrandSampler sampler(*step_.left, step_.right, strand.track, step_.h);
-    return sampler(position_ / step_.h)[strand.members.front()];
+  Complex value_of(const EigenvalueBranch& branch) const {
+    EigenvalueSampler sampler(*step_.left, step_.right, branch.track, step_.h);
+    return sampler(position_ / step_.h)[branch.members.front()];
   }
 
   /// Another one beside one that was found, or from the prediction once more.
@@ -226,7 +226,7 @@ class PencilSearch {
     for (std::size_t i = 0; i < step_.left->tracks.size(); ++i) {
       const Track& other = step_.left->tracks[i];
       if (other.pair.part != track().pair.part || other.pair.chart != chart()) continue;
-      StrandSampler sampler(*step_.left, step_.right, i, step_.h);
+      EigenvalueSampler sampler(*step_.left, step_.right, i, step_.h);
       seen.push_back({i, sampler(std::clamp(t, 0.0, 1.0))});
     }
     const std::vector<int> modes = nearest_modes(below, seen);

@@ -173,8 +173,8 @@ std::optional<PathNode> VeeringWalk::joined(const TracksAt& apart, double distan
   return std::move(there->node);
 }
 
-/// The point at a distance with the two strands as a block, if both belong to one track, which may have more
-/// eigenvalues.
+/// The point at a distance with the two eigenvalue branches as a block, if both belong to one track, which
+/// may have more eigenvalues.
 std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double distance) const {
   const std::size_t index = expected_.a.track;
   std::optional<PathNode> point = follow(one_track(nearer, index), distance);
@@ -183,27 +183,27 @@ std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double
   Track& block = point->tracks.front();
   if (static_cast<Eigen::Index>(members.size()) == block.size()) return point;
   // Separate the two from a larger block, where they are closer to each other than to the others.
-  StrandSampler strands(*step_.left, step_.right, index, step_.h);
+  EigenvalueSampler branches(*step_.left, step_.right, index, step_.h);
   const double share = std::clamp(expected_.position.real() / step_.h, 0.0, 1.0);
-  block.roots = in_order_of(strands(share), block.roots);
+  block.roots = in_order_of(branches(share), block.roots);
   std::optional<Track> pair = separate(search_.problem(), *point, block, members, search_.solver.counts());
   if (!pair) return std::nullopt;
   point->tracks = {std::move(*pair)};
   return point;
 }
 
-/// The real point at the predicted position, with the two strands as one block as its only track.
+/// The real point at the predicted position, with the two eigenvalue branches as one block as its only track.
 std::optional<PathNode> VeeringWalk::as_one_block() const {
-  const Strand& a = expected_.a;
-  const Strand& b = expected_.b;
+  const EigenvalueBranch& a = expected_.a;
+  const EigenvalueBranch& b = expected_.b;
   const bool right = expected_.position.real() / step_.h > 0.5;
   const PathNode& nearer = right ? step_.right : *step_.left;
   const double distance = expected_.position.real() - (right ? step_.h : 0.0);
   if (a.track == b.track) return in_its_block(nearer, distance);
   std::vector<Track> apart;
-  for (const Strand* strand : {&a, &b}) {
-    std::optional<Track> track = separate(search_.problem(), nearer, nearer.tracks[strand->track],
-                                          strand->members, search_.solver.counts());
+  for (const EigenvalueBranch* branch : {&a, &b}) {
+    std::optional<Track> track = separate(search_.problem(), nearer, nearer.tracks[branch->track],
+                                          branch->members, search_.solver.counts());
     if (!track) return std::nullopt;
     apart.push_back(std::move(*track));
   }
@@ -311,12 +311,12 @@ FoundEvents VeeringWalk::run() {
   return {{std::move(event)}};
 }
 
-/// The modes of both strands of a predicted meeting.
+/// The modes of both eigenvalue branches of a predicted meeting.
 std::vector<int> modes_of(const PathNode& node, const ExpectedMeeting& expected) {
   std::vector<int> modes;
-  for (const Strand* strand : {&expected.a, &expected.b}) {
-    for (const int i : strand->members)
-      modes.push_back(node.tracks[strand->track].modes[static_cast<std::size_t>(i)]);
+  for (const EigenvalueBranch* branch : {&expected.a, &expected.b}) {
+    for (const int i : branch->members)
+      modes.push_back(node.tracks[branch->track].modes[static_cast<std::size_t>(i)]);
   }
   return sorted_modes(modes);
 }

@@ -147,7 +147,7 @@ ReducedPencil of_order_zero(const ReducedPencil& series) {
   if (!series.M.empty()) pencil = {{series.M[0]}, {series.C[0]}, {series.K[0]}};
   for (const ReducedPencil& part : series.parts) pencil.parts.push_back(of_order_zero(part));
   pencil.copies = series.copies;
-  pencil.chirality = series.chirality;
+  pencil.complex_sign = series.complex_sign;
   return pencil;
 }
 

@@ -41,7 +41,7 @@ constexpr double curvature_safety = 1.5;
 /// Factor on an estimate of Z2 from a single vector.
 constexpr double rough_safety = 30.0;
 
-/// Multiplications for one tube, about 0.08 s: a large model has few halvings. With a larger value few tubes
+/// Multiplications for one test, about 0.08 s: a large model has few halvings. With a larger value few tests
 /// use up what the certificate may cost of all.
 constexpr double most_work = 2.5e8;
 /// What the vectors of a piece take, in n^2 multiplications at the speed of an LU: about thirty solutions and
@@ -57,9 +57,9 @@ constexpr double time_of_band_entry = 8.0;
 constexpr Eigen::Index largest_matrix = 80;
 
 /// The certificate of one track on one step.
-class Tube {
+class BallTest {
  public:
-  Tube(const StepPencil& pencil, const Track& left, const Track& right, double gap, RunCounts& counts)
+  BallTest(const StepPencil& pencil, const Track& left, const Track& right, double gap, RunCounts& counts)
       : pencil_(pencil),
         chart_(left.pair.chart),
         W_(left.pair.W),
@@ -84,11 +84,11 @@ class Tube {
  private:
   /// The interpolated pair and pencil at one value of t.
   struct State {
-    State(const Tube& tube, double t)
-        : sample(tube.pencil_.at(t)),
-          pencil(sample->at, tube.chart_),
-          Z(weighted_sum(tube.left_Z_, tube.right_Z_, sample->weights)),
-          Lambda(weighted_sum(tube.left_Lambda_, tube.right_Lambda_, sample->weights)),
+    State(const BallTest& test, double t)
+        : sample(test.pencil_.at(t)),
+          pencil(sample->at, test.chart_),
+          Z(weighted_sum(test.left_Z_, test.right_Z_, sample->weights)),
+          Lambda(weighted_sum(test.left_Lambda_, test.right_Lambda_, sample->weights)),
           place(pencil, Z, Lambda) {}
     State(const State&) = delete;  // refers to itself
 
@@ -122,7 +122,7 @@ class Tube {
     return F;
   }
 
-  /// Whether the tube closes between `begin` and `end`, after halvings where needed. `last` is Z1 of the
+  /// Whether the test closes between `begin` and `end`, after halvings where needed. `last` is Z1 of the
   /// piece that was halved into this one and another.
   bool closes(double begin, double end, int depth, double last) {
     const double middle = 0.5 * (begin + end);
@@ -149,12 +149,12 @@ class Tube {
     const State centre(*this, middle);
     const double scale = unknown_scale(gap_, centre.Lambda.norm());
     const auto samples = samples_of(begin, middle, end);
-    const bool is_chiral = centre.pencil.chirality != 0;  // the whole matrix may be singular
-    if (!is_chiral && centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
+    const bool is_complex_part = centre.pencil.complex_sign != 0;  // the whole matrix may be singular
+    if (!is_complex_part && centre.Z.size() + centre.Lambda.size() <= largest_matrix) {
       count(1, centre.Z.size() + centre.Lambda.size(), centre.pencil);
       return closes_about(centre, WholeInverse(centre.place, W_, scale), scale, samples, Z1);
     }
-    count(W_.cols(), (is_chiral ? centre.Z.rows() / 2 : centre.Z.rows()) + W_.cols(), centre.pencil);
+    count(W_.cols(), (is_complex_part ? centre.Z.rows() / 2 : centre.Z.rows()) + W_.cols(), centre.pencil);
     return closes_about(centre, TriangularInverse(centre.place, W_, W1_, scale), scale, samples, Z1);
   }
 
@@ -168,12 +168,12 @@ class Tube {
         static_cast<double>(factorizations) * n * row * (row / 3.0 + vectors_of_piece);
   }
 
-  /// The same with B at the middle. The tube closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies
+  /// The same with B at the middle. The test closes if (1 - Z1)^2 > 2 Z2 Y with Z1 < 1: then some r satisfies
   /// Y + Z1 r + Z2 r^2/2 <= r. Z1 is set to that of the begin.
   template <class Inverse>
   bool closes_about(const State& centre, const Inverse& B, double scale,
                     const std::array<PlaceOnPiece, 4>& samples, double& Z1) const {
-    TubeNorm norm(centre.Z.rows(), centre.Z.cols());
+    BallNorm norm(centre.Z.rows(), centre.Z.cols());
     ComplexMatrix residuals(centre.Z.size() + centre.Lambda.size(),
                             1 + static_cast<Eigen::Index>(samples.size()));
     residuals.col(0) = residual(centre);
@@ -198,7 +198,7 @@ class Tube {
   /// The first of the plain, the energy and the adapted norm in which Z1 of a change is below one, or the
   /// last. Returns Z1 and sets the direction of the largest change.
   template <class Inverse, class Change>
-  double choose_norm(const State& centre, const Inverse& B, const Change& change, TubeNorm& norm,
+  double choose_norm(const State& centre, const Inverse& B, const Change& change, BallNorm& norm,
                      ComplexVector& direction) const {
     const auto size_of_change = [&](double enough) {
       direction = start_vector(centre.Z.size() + centre.Lambda.size());
@@ -228,7 +228,7 @@ class Tube {
   /// Whether Z2 >= |B F''| is below a limit.
   template <class Inverse>
   bool curvature_is_below(double limit, const State& s, double scale, const Inverse& B,
-                          const TubeNorm& norm) const {
+                          const BallNorm& norm) const {
     const Eigen::Index k = s.Z.cols();
     const double both = 2.0 * norm.largest_eigenvalue_part();
     // Far below the limit, as nearly always, one solution tells: |A v| is about |A| / sqrt(n) or more.
@@ -251,7 +251,7 @@ class Tube {
 
   /// |B A v| / |v|.
   template <class Inverse, class Operator>
-  static double size_of_image(const Inverse& B, const Operator& A, const TubeNorm& norm, ComplexVector v) {
+  static double size_of_image(const Inverse& B, const Operator& A, const BallNorm& norm, ComplexVector v) {
     v.normalize();
     norm.apply(v);
     return largest_of_solved(B, ComplexMatrix(A.times(v)), norm);
@@ -261,7 +261,7 @@ class Tube {
   Chart chart_;
   ComplexMatrix W_, W1_;
   RunCounts& counts_;
-  double before_ = 0.0;  ///< work before this tube
+  double before_ = 0.0;  ///< work before this test
   bool gave_up_ = false;
   double gap_;
   std::vector<ComplexMatrix> left_Z_, left_Lambda_, right_Z_, right_Lambda_;
@@ -271,9 +271,9 @@ class Tube {
 
 bool certify_step(const StepPencil& pencil, const Track& left, const Track& right, double gap,
                   RunCounts& counts, bool* gave_up) {
-  Tube tube(pencil, left, right, gap, counts);
-  const bool closes = tube.closes();
-  if (gave_up != nullptr) *gave_up = tube.gave_up();
+  BallTest test(pencil, left, right, gap, counts);
+  const bool closes = test.closes();
+  if (gave_up != nullptr) *gave_up = test.gave_up();
   return closes;
 }
 

@@ -38,7 +38,7 @@ class ModalBounds {
               const Matrix& inverse_distances, const Vector& sizes);
 
   struct Result {
-    bool closes;  ///< whether the tube closes
+    bool closes;  ///< whether the test closes
     double Z1;    ///< with the change of the vectors to first order
   };
   Result of_track(std::size_t track) const;

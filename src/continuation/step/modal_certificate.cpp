@@ -72,11 +72,11 @@ PairSeries in_finite_chart(const Track& track, const PathNode& left, const Compl
 }
 
 /// The certificates of all tracks of one part on one step.
-class ModalTube {
+class ModalBallTest {
  public:
   /// `left` and `right` are the tracks of the part, at both ends.
-  ModalTube(const StepPencil& pencil, const std::vector<const Track*>& left,
-            const std::vector<const Track*>& right, RunCounts& counts)
+  ModalBallTest(const StepPencil& pencil, const std::vector<const Track*>& left,
+                const std::vector<const Track*>& right, RunCounts& counts)
       : pencil_(pencil), counts_(counts) {
     Eigen::Index columns = 0, largest = 1;
     for (const Track* track : left) {
@@ -100,7 +100,7 @@ class ModalTube {
     }
   }
 
-  /// Per track, whether its tube closes.
+  /// Per track, whether its test closes.
   std::vector<bool> closes() {
     const std::vector<bool> wanted(places_.size(), true);
     std::vector<bool> closed = wanted;
@@ -115,7 +115,7 @@ class ModalTube {
   }
 
   /// Tests the tracks in `wanted` between `begin` and `end`, with halvings, and sets `closed` to false for
-  /// those whose tube does not close. `last` holds Z1 of the piece that was halved into this one and another.
+  /// those whose test does not close. `last` holds Z1 of the piece that was halved into this one and another.
   void close(double begin, double end, int depth, const std::vector<bool>& wanted,
              const std::vector<double>& last, std::vector<bool>& closed) {
     const double middle = 0.5 * (begin + end);
@@ -137,7 +137,7 @@ class ModalTube {
     close(middle, end, depth + 1, open, Z1, closed);
   }
 
-  /// Per track in `wanted`, whether its tube closes on one piece, without halving. Sets Z1.
+  /// Per track in `wanted`, whether its test closes on one piece, without halving. Sets Z1.
   std::vector<bool> piece(double begin, double middle, double end, const std::vector<bool>& wanted,
                           std::vector<double>& Z1) {
     std::vector<bool> result(places_.size(), false);
@@ -250,9 +250,9 @@ std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, i
     at_right.push_back(&right.tracks[i]);
   }
   // Of a complex part, the conjugates are modes of another one.
-  if (pencil.left().pencil.of(part).chirality != 0) return closed;
+  if (pencil.left().pencil.of(part).complex_sign != 0) return closed;
   if (own.empty() || !are_basis(at_left, pencil.left().pencil.of(part).M[0])) return closed;
-  const std::vector<bool> of_part = ModalTube(pencil, at_left, at_right, counts).closes();
+  const std::vector<bool> of_part = ModalBallTest(pencil, at_left, at_right, counts).closes();
   for (std::size_t i = 0; i < own.size(); ++i) closed[own[i]] = of_part[i];
   return closed;
 }

@@ -11,7 +11,7 @@
 
 namespace eigentrail {
 
-/// For every track between the points of the pencil, whether its tube closes. False for the tracks of other
+/// For every track between the points of the pencil, whether its test closes. False for the tracks of other
 /// parts than `part`, that of the pencil, and for all if those of the part are not a basis of its state
 /// space; they have to be tested one by one.
 std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, int part, RunCounts& counts);

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/step/tube_norm.hpp"
+#include "continuation/step/ball_norm.hpp"
 #include "core/orthonormal.hpp"
 
 namespace eigentrail {
@@ -24,7 +24,7 @@ inline ComplexVector start_vector(Eigen::Index size, double number = 0.0) {
 
 /// The largest norm of a column of B V; infinite if one is not a number.
 template <class Inverse>
-double largest_of_solved(const Inverse& B, ComplexMatrix V, const TubeNorm& norm) {
+double largest_of_solved(const Inverse& B, ComplexMatrix V, const BallNorm& norm) {
   B.apply(V);
   double largest = 0.0;
   for (Eigen::Index j = 0; j < V.cols(); ++j) {
@@ -40,7 +40,7 @@ double largest_of_solved(const Inverse& B, ComplexMatrix V, const TubeNorm& norm
 /// |B A| from below, by power iteration from the direction v, which is overwritten with the last one. Stops
 /// when the estimate exceeds `enough`. Infinite if it is not a number.
 template <class Inverse, class Operator>
-double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const TubeNorm& norm,
+double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const BallNorm& norm,
                       ComplexVector& v, double enough = INFINITY) {
   double size = 0.0;
   for (int i = 0; i < iterations && !(size > enough); ++i) {
@@ -65,7 +65,7 @@ double norm_of_solved(const Inverse& B, const Operator& A, int iterations, const
 /// The norm in which B A is small, if that is possible by scaling `directions` of the energy norm. The first
 /// direction is about the one that is magnified most.
 template <class Inverse, class Operator>
-AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const TubeNorm& energy,
+AdaptedNorm adapted_norm(const Inverse& B, const Operator& A, const BallNorm& energy,
                          const ComplexVector& first, Eigen::Index directions) {
   const auto times = [&](ComplexMatrix X) {
     energy.from_energy(X);

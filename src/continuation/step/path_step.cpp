@@ -26,8 +26,8 @@ constexpr double largest_change = 0.5;
 constexpr double smallest_piece = 1e-14;
 /// Roots that coincide everywhere cannot be distinguished by shorter pieces. After this many pieces the
 /// shortest one is longer, so that following them ends. Narrow veerings need some fifty pieces.
-constexpr int patience = 300;
-constexpr double piece_without_patience = 1e-2;  ///< shortest piece then, as a share of the step
+constexpr int many_pieces = 300;
+constexpr double smallest_of_many_pieces = 1e-2;  ///< shortest piece then, as a share of the step
 /// Largest |Im t| of a root of dp/dt that counts as real. Two turning points that nearly coincide are
 /// computed as a conjugate pair with imaginary parts up to the square root of rounding, 1e-8. A root too many
 /// does no harm: p is monotonic on both sides of it.
@@ -273,7 +273,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
   double t = from;
   double piece = to - from;
   for (int pieces = 0; t != to; ++pieces) {
-    const double shortest = pieces < patience ? smallest_piece : piece_without_patience;
+    const double shortest = pieces < many_pieces ? smallest_piece : smallest_of_many_pieces;
     if (std::abs(piece) >= std::abs(to - t)) piece = to - t;
     // If two roots change places within a piece, its ends alone look as if nothing had happened. The middle
     // shows it.

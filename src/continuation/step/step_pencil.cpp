@@ -139,7 +139,7 @@ bool StepPencil::has_constant_leading_matrix() const {
 
 std::optional<Eigen::Index> StepPencil::find_width() const {
   const Eigen::Index n = left_pencil_.size();
-  if (!is_narrow_band(0, n) || left_pencil_.chirality != 0) return std::nullopt;
+  if (!is_narrow_band(0, n) || left_pencil_.complex_sign != 0) return std::nullopt;
   Eigen::Index width = 0;
   for (const ReducedPencil* pencil : {&left_pencil_, &right_}) {
     for (const MatrixSeries* series : {&pencil->K, &pencil->C, &pencil->M}) {
@@ -178,7 +178,7 @@ std::shared_ptr<const StepPencil::Sample> StepPencil::sample(double t) const {
   ReducedPencil pencil{{interpolate(left_pencil_.M, right_.M, weights)},
                        {interpolate(left_pencil_.C, right_.C, weights)},
                        {interpolate(left_pencil_.K, right_.K, weights)}};
-  pencil.chirality = left_pencil_.chirality;
+  pencil.complex_sign = left_pencil_.complex_sign;
   auto sample = std::make_shared<Sample>(std::move(weights), std::move(pencil));
   if (!width_) width_ = find_width();
   if (const auto& width = *width_) {

@@ -1,7 +1,7 @@
 #include "continuation/step/stored_step.hpp"
 
 #include "continuation/step/shared_basis.hpp"
-#include "continuation/tracks/strands.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {

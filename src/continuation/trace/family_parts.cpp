@@ -69,13 +69,13 @@ std::vector<bool> real_pairs(const PathProblem& problem, const TraceOptions& opt
   for (const double p : places) {
     const std::optional<ReducedPencil> pencil = pencil_at(problem, p, parts, counts);
     for (std::size_t i = 0; i < parts->count(); ++i) {
-      if (parts->ranges[i].chirality == 0 || is_real[i]) continue;
+      if (parts->ranges[i].complex_sign == 0 || is_real[i]) continue;
       const auto count = pencil ? modes_of_complex_part(pencil->parts[i]) : std::nullopt;
       const bool passes_axis = p != places.front() && count && *count != modes[i];
       if (count) modes[i] = *count;
       if (count && !passes_axis) continue;
       is_real[i] = true;
-      is_real[parts->ranges[i].chirality > 0 ? i + 1 : i - 1] = true;
+      is_real[parts->ranges[i].complex_sign > 0 ? i + 1 : i - 1] = true;
     }
   }
   return is_real;
@@ -83,7 +83,7 @@ std::vector<bool> real_pairs(const PathProblem& problem, const TraceOptions& opt
 
 bool has_complex_parts(const IndependentParts* parts) {
   return parts != nullptr && std::any_of(parts->ranges.begin(), parts->ranges.end(),
-                                         [](const auto& range) { return range.chirality != 0; });
+                                         [](const auto& range) { return range.complex_sign != 0; });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "continuation/archived_parts.hpp"
-#include "continuation/trace/chiral_parts.hpp"
+#include "continuation/trace/complex_parts.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
@@ -52,8 +52,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<ReducedPencil> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [M, C, K, parts, copies, chirality] = self;
-  visit(M, C, K, parts, copies, chirality);
+  auto& [M, C, K, parts, copies, complex_sign] = self;
+  visit(M, C, K, parts, copies, complex_sign);
 }
 
 template <SameAs<PathNode> Self, class Visit>
@@ -144,8 +144,8 @@ static void fields(Self& self, Visit& visit) {
 
 template <SameAs<StepMemory> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
-  auto& [joins, ended, lengthened, towards_pole, patience, longest_step, turned_step] = self;
-  visit(joins, ended, lengthened, towards_pole, patience, longest_step, turned_step);
+  auto& [joins, ended, lengthened, towards_pole, retries, longest_step, turned_step] = self;
+  visit(joins, ended, lengthened, towards_pole, retries, longest_step, turned_step);
 }
 
 template <SameAs<ModeNumbers> Self, class Visit>
@@ -211,7 +211,7 @@ bool all_are(const Coefficients& series, Eigen::Index rows, Eigen::Index columns
 
 bool fits(const std::vector<int>& modes, Eigen::Index size, int columns) {
   for (const int mode : modes) {
-    if (mode < Track::guest || mode >= columns) return false;
+    if (mode < Track::guard || mode >= columns) return false;
   }
   return static_cast<Eigen::Index>(modes.size()) == size;
 }
@@ -253,7 +253,8 @@ bool has_parts(const ReducedPencil& pencil, const IndependentParts* parts) {
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Index size = parts->ranges[i].size;
     const ReducedPencil& own = pencil.parts[i];
-    if (own.copies != copies(parts->ranges[i]) || own.chirality != parts->ranges[i].chirality) return false;
+    if (own.copies != copies(parts->ranges[i]) || own.complex_sign != parts->ranges[i].complex_sign)
+      return false;
     if (!all_are(own.M, size, size) || !all_are(own.C, size, size) || !all_are(own.K, size, size))
       return false;
   }

@@ -16,13 +16,13 @@
 #include "continuation/step/step_error.hpp"
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/step/stored_step.hpp"
-#include "continuation/trace/chiral_parts.hpp"
+#include "continuation/trace/complex_parts.hpp"
 #include "continuation/trace/narrow_landings.hpp"
 #include "continuation/trace/stop_remarks.hpp"
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/entering_modes.hpp"
 #include "continuation/tracks/mode_states.hpp"
-#include "continuation/tracks/newcomers.hpp"
 #include "continuation/tracks/remedy.hpp"
 #include "continuation/tracks/towards_infinity.hpp"
 
@@ -159,15 +159,15 @@ bool notices_rounding(const PathProblem& problem, const TraceOptions& options, c
   const double seen = observed_rounding(problem, options.tolerance, step, index);
   if (seen <= before) return false;
   note_rounding(track, seen, state.frame);
-  return known_rounding(state.frame, track) >= seen;  // less of guests
+  return known_rounding(state.frame, track) >= seen;  // less of guard modes
 }
 
 /// Modes that have to be followed from a point on. `meets`: eigenvalues coincide there.
-Newcomers needed_at(const PathProblem& problem, const TraceOptions& options, const PathNode& node, bool meets,
-                    TraceState& state) {
+EnteringModes needed_at(const PathProblem& problem, const TraceOptions& options, const PathNode& node,
+                        bool meets, TraceState& state) {
   if (!state.settings.leaves_out) return {{}, 0};
   if (meets) return {};
-  return newcomers(problem, options.modes, node, state.result.counts);
+  return entering_modes(problem, options.modes, node, state.result.counts);
 }
 
 /// Makes the next attempt longer where a step ends so close to a collision of many eigenvalues that rounding
@@ -244,9 +244,9 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
-  Newcomers needed = needed_at(problem_, options_, node, !meetings.empty(), state_);
+  EnteringModes needed = needed_at(problem_, options_, node, !meetings.empty(), state_);
   begin_here(problem_, std::move(needed.tracks), node, state_.numbers);
-  number_growing_guests(problem_, node, node, state_.numbers);
+  number_growing_guards(problem_, node, node, state_.numbers);
   for (Track& track : node.tracks) track.arriving = track.modes;
   growing_unfollowed_ = needed.growing;
   number_modes(state_, node);
@@ -327,8 +327,8 @@ bool TraceLoop::advance() {
     return true;
   const auto if_uncertified = [this](double of_length) {
     const StepMemory& memory = state_.steps;
-    return memory.patience.treatment(state_.frame, of_length, memory.longest_step, state_.result.nodes,
-                                     budget_of_certificate(state_, options_));
+    return memory.retries.treatment(state_.frame, of_length, memory.longest_step, state_.result.nodes,
+                                    budget_of_certificate(state_, options_));
   };
   const auto is_taken = [&](const Verdict& verdict, double of_length) {
     return verdict.accepted() || (verdict.kind == Verdict::Kind::uncertified &&
@@ -370,7 +370,7 @@ Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
   tests_.clear();
   const CertificateBudget budget = budget_of_certificate(state_, options_);
   for (const Track& track : step.right.tracks)
-    tests_.push_back(state_.steps.patience.test_of(track.lineage, budget, costly));
+    tests_.push_back(state_.steps.retries.test_of(track.lineage, budget, costly));
   return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_, state_.result.counts);
 }
 
@@ -378,9 +378,9 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
   count(verdict, state_.result.rejections);
   StepMemory& memory = state_.steps;
   const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
-  if (uncertified) memory.patience.count_failure();
+  if (uncertified) memory.retries.count_failure();
   const Shorter shorter =
-      uncertified && memory.patience.is_in_vain(verdict.error) ? Shorter::in_vain : Shorter::may_help;
+      uncertified && memory.retries.is_in_vain(verdict.error) ? Shorter::in_vain : Shorter::may_help;
   const int limit = std::max(most_joins, static_cast<int>(state_.origin.node.tracks.size()));
   const Remedy remedy =
       eigentrail::find_remedy(problem_, state_.frame, joining_rules(), verdict, h, step ? &*step : nullptr,
@@ -425,9 +425,9 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
-  Newcomers needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
-  const int guests = number_growing_guests(problem_, step.right, state_.origin.node, state_.numbers);
-  if (guests + follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node,
+  EnteringModes needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
+  const int guards = number_growing_guards(problem_, step.right, state_.origin.node, state_.numbers);
+  if (guards + follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node,
                            state_.numbers, result.counts) >
       0) {
     number_modes(state_, state_.origin.node);
@@ -445,7 +445,7 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   const PathStep stored = with_copies(state_.copies, stored_step(problem_, step, certified));
   std::vector<std::uint64_t> lineages;
   for (const Track& track : step.right.tracks) lineages.push_back(track.lineage);
-  state_.steps.patience.count_step(lineages, tests_, certified);
+  state_.steps.retries.count_step(lineages, tests_, certified);
   for (std::size_t i = 0; i < certified.size(); ++i) {
     if (certified[i]) step.right.tracks[i].unproven = false;
   }

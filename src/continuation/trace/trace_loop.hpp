@@ -68,7 +68,7 @@ class TraceLoop final : private Checkpoint {
   EventLog log_;
   EventSearch search_;
   std::vector<TrackTest> tests_;  ///< of the tracks of the last step that was judged
-  int growing_unfollowed_ = -1;   ///< at the last point, as Newcomers::growing
+  int growing_unfollowed_ = -1;   ///< at the last point, as EnteringModes::growing
   double reach_ = 3.0;            ///< see parting_reach; replaced when the order is known
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_before_ = 0.0;  ///< wall time of the earlier runs that this one continues

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "continuation/events/event_search.hpp"
-#include "continuation/point/idle_freedom.hpp"
+#include "continuation/point/common_null_vector.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
@@ -145,13 +145,14 @@ void Start::settle_order() {
 /// The reason why the spectrum at the start cannot be followed, if there is one.
 std::optional<StartFailure> Start::check_spectrum(const Spectrum& spectrum) const {
   const ReducedPencil& pencil = point_.pencil;
-  const std::string idle = idle_coordinate(problem_.model, point_);
-  if (spectrum.status == SpectrumStatus::singular_pencil || !idle.empty()) {
+  const std::string null_coordinate = null_vector_coordinate(problem_.model, point_);
+  if (spectrum.status == SpectrumStatus::singular_pencil || !null_coordinate.empty()) {
     const std::string advice =
-        idle.empty() ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
-                     : "A freedom that moves '" + idle +
-                           "' has no mass or inertia, no damping and no stiffness; give it inertia, or "
-                           "constrain it";
+        null_coordinate.empty()
+            ? "A freedom without mass, damping and stiffness causes this; remove or constrain it"
+            : "A freedom that moves '" + null_coordinate +
+                  "' has no mass or inertia, no damping and no stiffness; give it inertia, or "
+                  "constrain it";
     return StartFailure{TraceStatus::singular_pencil,
                         "the pencil is singular" + where() + ": every number is an eigenvalue. " + advice};
   }
@@ -395,21 +396,21 @@ void number_by_magnitude(Track& track) {
 }
 
 /// Whether two tracks of one mode belong to the halves of a conjugate pair of parts and coincide.
-bool are_coinciding_twins(const PathNode& node, const Track& a, const Track& b) {
-  const auto chirality = [&](const Track& track) { return node.pencil.of(track.pair.part).chirality; };
-  const bool are_twins = chirality(a) > 0 && chirality(b) < 0 && b.pair.part == a.pair.part + 1;
-  return are_twins && a.size() == 1 && b.size() == 1 && a.pair.chart == b.pair.chart &&
+bool are_coinciding_conjugates(const PathNode& node, const Track& a, const Track& b) {
+  const auto complex_sign = [&](const Track& track) { return node.pencil.of(track.pair.part).complex_sign; };
+  const bool are_conjugates = complex_sign(a) > 0 && complex_sign(b) < 0 && b.pair.part == a.pair.part + 1;
+  return are_conjugates && a.size() == 1 && b.size() == 1 && a.pair.chart == b.pair.chart &&
          std::abs(a.roots[0] - b.roots[0]) <= coincide * std::abs(a.roots[0]);
 }
 
 /// The same for both halves of a conjugate pair of parts: forward and backward whirl of a shaft at rest.
-void number_twins_by_magnitude(double distance, PathNode& node) {
+void number_conjugates_by_magnitude(double distance, PathNode& node) {
   const auto behind = [&](const Track& track) {
     return std::abs(block_roots(evaluate_series(track.functions, distance))[0]);
   };
   for (Track& a : node.tracks) {
     for (Track& b : node.tracks) {
-      if (!are_coinciding_twins(node, a, b)) continue;
+      if (!are_coinciding_conjugates(node, a, b)) continue;
       if ((behind(a) < behind(b)) == (a.modes[0] < b.modes[0])) continue;
       std::swap(a.modes, b.modes);
       a.arriving = a.modes;
@@ -424,7 +425,7 @@ std::vector<Birth> order_first_departure(const std::vector<bool>& meets, const P
                                          PathNode& node, ModeNumbers& numbers) {
   const double distance = frame.direction * beside_start * frame.range.length();
   std::vector<Birth> births;
-  number_twins_by_magnitude(distance, node);
+  number_conjugates_by_magnitude(distance, node);
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     Track& track = node.tracks[i];
     if (!meets[i]) continue;

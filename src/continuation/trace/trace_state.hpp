@@ -4,7 +4,7 @@
 
 #include "continuation/events/criteria_scan.hpp"
 #include "continuation/path/other_path.hpp"
-#include "continuation/step/certificate_patience.hpp"
+#include "continuation/step/certificate_retries.hpp"
 #include "continuation/step/step_solver.hpp"
 #include "continuation/tracks/ended_modes.hpp"
 #include "continuation/tracks/mode_copies.hpp"
@@ -38,7 +38,7 @@ struct StepMemory {
   int ended = 0;         ///< tracks that ended at the last point
   int lengthened = 0;    ///< steps from the last point that were lengthened (StepControl::restart)
   int towards_pole = 0;  ///< points in a row on which the position grew towards a pole
-  CertificatePatience patience = {};
+  CertificateRetries retries = {};
   double longest_step = 0.0;  ///< of about the last ten steps, in the coordinate along the path
   double turned_step = 0.0;   ///< length of the next step if the coordinate has just changed, else 0
 };

@@ -5,7 +5,7 @@
 
 #include "continuation/step/step_error.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
-#include "continuation/tracks/silent_partners.hpp"
+#include "continuation/tracks/guard_modes.hpp"
 
 namespace eigentrail {
 namespace {

@@ -7,7 +7,7 @@
 
 namespace eigentrail {
 
-/// Mode numbers in ascending order without repetitions. Negative entries (Track::no_mode, Track::guest) are
+/// Mode numbers in ascending order without repetitions. Negative entries (Track::no_mode, Track::guard) are
 /// left out.
 std::vector<int> sorted_modes(const std::vector<int>& modes);
 

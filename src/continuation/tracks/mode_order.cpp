@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "continuation/step/shared_basis.hpp"
-#include "continuation/tracks/strands.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -48,11 +48,11 @@ void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
     if (a >= 0 && b >= 0) {
       numbers.partners[a] = b;
       numbers.partners[b] = a;
-    } else if (followed && std::min(a, b) == Track::guest) {
+    } else if (followed && std::min(a, b) == Track::guard) {
       forget_partner(upper, numbers);
     }
     a = upper;
-    b = followed ? Track::no_mode : Track::guest;
+    b = followed ? Track::no_mode : Track::guard;
     if (roots[i].imag() < 0.0) std::swap(a, b);
   }
 }

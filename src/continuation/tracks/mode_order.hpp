@@ -46,8 +46,8 @@ std::vector<Birth> order_on_other_path(const PathNode& arrived, double next_step
                                        ModeNumbers& numbers);
 
 /// Updates the mode numbers of a real block so that every real eigenvalue is a mode, and of a complex pair
-/// the member with Im s > 0. Eigenvalues that are not followed stay guests. `in_use`: the modes of all tracks
-/// at the point; none of them begins again. Returns the modes that begin, or begin again.
+/// the member with Im s > 0. Eigenvalues that are not followed stay guard modes. `in_use`: the modes of all
+/// tracks at the point; none of them begins again. Returns the modes that begin, or begin again.
 std::vector<Birth> settle_real_block(Track& track, const std::vector<int>& in_use, ModeNumbers& numbers);
 
 /// The modes of all eigenvalues of some tracks.

@@ -101,9 +101,9 @@ double meeting_distance(const std::vector<Representative>& some, const std::vect
 }
 
 /// Whether the conjugates of a track's eigenvalues belong to its own equations. Those of a complex part
-/// belong to its twin, and are not met.
+/// belong to its conjugate part, and are not met.
 bool meets_conjugates(const PathNode& node, const Track& track) {
-  return !track.pair.is_real && node.pencil.of(track.pair.part).chirality == 0;
+  return !track.pair.is_real && node.pencil.of(track.pair.part).complex_sign == 0;
 }
 
 std::vector<Representative> conjugates(std::vector<Representative> all) {

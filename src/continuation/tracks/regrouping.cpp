@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "continuation/step/step_error.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
 #include "continuation/tracks/members.hpp"
-#include "continuation/tracks/strands.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -180,10 +180,10 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     append(track.roots, other_chart, with_conjugates, known);
     if (departure) append(roots_at_departure(track, *departure), other_chart, with_conjugates, departing);
     modes.insert(modes.end(), track.modes.begin(), track.modes.end());
-    // The conjugate of a guest is one, too.
+    // The conjugate of a guard mode is one, too.
     if (with_conjugates) {
       std::transform(track.modes.begin(), track.modes.end(), std::back_inserter(modes),
-                     [](int mode) { return mode >= 0 ? Track::no_mode : Track::guest; });
+                     [](int mode) { return mode >= 0 ? Track::no_mode : Track::guard; });
     }
   }
   if (static_cast<Eigen::Index>(known.size()) >
@@ -351,7 +351,7 @@ std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, co
       known[static_cast<Eigen::Index>(i)] = block.roots[members[i]];
       modes.push_back(block.modes[static_cast<std::size_t>(members[i])]);
     }
-    // Groups of conjugates and guests only are not followed.
+    // Groups of conjugates and guard modes only are not followed.
     if (std::all_of(modes.begin(), modes.end(), [](int mode) { return mode < 0; })) continue;
     Track track;
     if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))

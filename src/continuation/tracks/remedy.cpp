@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "continuation/step/step_error.hpp"
-#include "continuation/tracks/silent_partners.hpp"
+#include "continuation/tracks/guard_modes.hpp"
 
 namespace eigentrail {
 namespace {

@@ -69,10 +69,10 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
     for (const std::size_t i : members) {
       const bool followed = static_cast<int>(i) < n_modes;
       roots.push_back(modes[i].s);
-      group.modes.push_back(followed ? static_cast<int>(i) : Track::guest);
+      group.modes.push_back(followed ? static_cast<int>(i) : Track::guard);
       if (!is_real || modes[i].s.imag() == 0.0) continue;
       roots.push_back(std::conj(modes[i].s));
-      group.modes.push_back(followed ? Track::no_mode : Track::guest);
+      group.modes.push_back(followed ? Track::no_mode : Track::guard);
     }
     group.roots = Eigen::Map<ComplexVector>(roots.data(), static_cast<Eigen::Index>(roots.size()));
     const int part = modes[members.front()].part;

@@ -10,11 +10,11 @@ namespace eigentrail {
 struct StartingGroup {
   InvariantPair pair;      ///< not yet corrected
   ComplexVector roots;     ///< eigenvalues from the spectrum
-  std::vector<int> modes;  ///< mode number of every root, or Track::no_mode, Track::guest
+  std::vector<int> modes;  ///< mode number of every root, or Track::no_mode, Track::guard
 };
 
-/// Groups that contain the first `n_modes` modes of the spectrum. Later modes are in these groups, as guests,
-/// where they are too close. Modes of copies of a part are left out. `s_ref`: magnitude below which an
+/// Groups that contain the first `n_modes` modes of the spectrum. Later modes are in these groups, as guard
+/// modes, where they are too close. Modes of copies of a part are left out. `s_ref`: magnitude below which an
 /// eigenvalue counts as zero, 1/s. `least_scale`: lower bound of s_ref, the magnitude of eigenvalues near the
 /// point; needed on a branch point, where the pencil may have no other eigenvalues than zero.
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,

@@ -35,7 +35,7 @@ std::optional<double> distance_of_infinity(const ComplexVector& mu, const Infini
   return distance.real();
 }
 
-/// Whether all modes of a track are among the members; conjugates and guests do not count.
+/// Whether all modes of a track are among the members; conjugates and guard modes do not count.
 bool are_all(const Track& track, const std::vector<int>& members) {
   for (int i = 0; i < static_cast<int>(track.size()); ++i) {
     const bool is_member = std::find(members.begin(), members.end(), i) != members.end();

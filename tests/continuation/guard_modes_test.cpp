@@ -1,5 +1,5 @@
 // Neighbours of a followed mode that are not followed themselves.
-#include "continuation/tracks/silent_partners.hpp"
+#include "continuation/tracks/guard_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,14 +19,14 @@ TEST(AddNeighbours, AddsTheNearestThatNoTrackHas) {
   ASSERT_GT(node.tracks.size(), 2U);
   std::vector<double> added;
   for (std::size_t i = 2; i < node.tracks.size(); ++i) {
-    EXPECT_EQ(node.tracks[i].modes, std::vector<int>{Track::guest});
+    EXPECT_EQ(node.tracks[i].modes, std::vector<int>{Track::guard});
     added.push_back(node.tracks[i].roots[0].imag());
     EXPECT_TRUE(node.tracks[i].functions.allFinite());
   }
   EXPECT_NEAR(added[0], 1.9, 1e-10);
   EXPECT_NEAR(added[1], 2.2, 1e-10);
   for (const double w : added) EXPECT_GT(std::abs(w - 2.9), 0.1) << "it is followed";
-  remove_guests(node);
+  remove_guards(node);
   EXPECT_EQ(node.tracks.size(), 2U);
 }
 
@@ -52,7 +52,7 @@ TEST(AddNeighbours, FindsRealEigenvalues) {
 
 /// s^2 + 2 s + 0.2 + 0.8 p, of which only the slower of two real roots is followed: it meets the other one at
 /// p = 1, where the step may not have become short before the other one is seen.
-TEST(SilentPartners, AreFoundBeforeStepsShrinkTowardsACollision) {
+TEST(GuardModes, AreFoundBeforeStepsShrinkTowardsACollision) {
   for (const std::string tolerance : {"1e-6", "1e-8", "1e-10"}) {
     SCOPED_TRACE(tolerance);
     const RecordedTrace trace =

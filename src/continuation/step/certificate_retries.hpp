@@ -1,4 +1,5 @@
-// How long the certificate may shorten steps: where eigenvalues are very sensitive, no length makes it close.
+// How often a step is retried with a shorter length because its certificate fails: where eigenvalues are very
+// sensitive, no length makes it close.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ enum class CertificateBudget {
   spent           ///< nothing is tested for now
 };
 
-class CertificatePatience {
+class CertificateRetries {
  public:
   /// Visits all members, for saving and restoring the state of a trace.
   template <class Self, class Visit>

@@ -1,4 +1,4 @@
-#include "continuation/point/idle_freedom.hpp"
+#include "continuation/point/common_null_vector.hpp"
 
 #include <Eigen/QR>
 
@@ -8,13 +8,13 @@ namespace eigentrail {
 namespace {
 
 /// Relative size of a pivot of [M; C; K], each scaled to a largest entry of one, below which it counts as
-/// zero: rounding of the entries with a margin. With a larger value very light or soft freedoms are reported
-/// as idle, with a smaller one rounding hides an idle freedom.
-constexpr double idle = 1e-12;
+/// zero: rounding of the entries with a margin. With a larger value very light or soft freedoms are reported,
+/// with a smaller one rounding hides a common null vector.
+constexpr double zero_pivot = 1e-12;
 
 }  // namespace
 
-std::string idle_coordinate(const Model& model, const PathPoint& point) {
+std::string null_vector_coordinate(const Model& model, const PathPoint& point) {
   const Eigen::Index n = point.pencil.size();
   if (n == 0) return {};
   Matrix all(3 * n, n);
@@ -23,7 +23,7 @@ std::string idle_coordinate(const Model& model, const PathPoint& point) {
     all.middleRows(i * n, n) /= positive_or_one(all.middleRows(i * n, n).cwiseAbs().maxCoeff());
   }
   Eigen::ColPivHouseholderQR<Matrix> qr(all);
-  qr.setThreshold(idle);
+  qr.setThreshold(zero_pivot);
   const Eigen::Index rank = qr.rank();
   if (rank == n) return {};
   // With the pivots of R11 nonzero and R22 = 0, R11 v1 = -R12 e1 gives a vector v = (v1, e1) with M v = C v =

@@ -1,4 +1,4 @@
-#include "continuation/step/certificate_patience.hpp"
+#include "continuation/step/certificate_retries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,15 +44,15 @@ constexpr double spectrum_work = 480.0;
 
 }  // namespace
 
-Uncertified CertificatePatience::treatment(const PathFrame& frame, double h, double longest, int points,
-                                           CertificateBudget budget) const {
+Uncertified CertificateRetries::treatment(const PathFrame& frame, double h, double longest, int points,
+                                          CertificateBudget budget) const {
   if (budget != CertificateBudget::within) return Uncertified::passes_by_shape;
   if (std::abs(h) <= shrunk * longest && may_stay_uncertified(frame, h)) return Uncertified::passes;
   const bool exhausted = all_ > free_attempts + attempts_share * points;
   return exhausted ? Uncertified::passes_by_shape : Uncertified::is_rejected;
 }
 
-TrackTest CertificatePatience::test_of(std::uint64_t lineage, CertificateBudget budget, bool costly) const {
+TrackTest CertificateRetries::test_of(std::uint64_t lineage, CertificateBudget budget, bool costly) const {
   if (budget == CertificateBudget::spent) return TrackTest::none;
   const auto known = std::find_if(failing_.begin(), failing_.end(),
                                   [&](const Failing& one) { return one.lineage == lineage; });
@@ -61,9 +61,8 @@ TrackTest CertificatePatience::test_of(std::uint64_t lineage, CertificateBudget 
                                                                         : TrackTest::lenient;
 }
 
-void CertificatePatience::count_step(const std::vector<std::uint64_t>& lineages,
-                                     const std::vector<TrackTest>& tests,
-                                     const std::vector<bool>& certified) {
+void CertificateRetries::count_step(const std::vector<std::uint64_t>& lineages,
+                                    const std::vector<TrackTest>& tests, const std::vector<bool>& certified) {
   recent_ *= forgetting;
   std::vector<Failing> failing;  // tracks that are gone are dropped
   for (std::size_t i = 0; i < lineages.size() && i < tests.size() && i < certified.size(); ++i) {
@@ -103,12 +102,12 @@ bool is_costly_in_vain(const RunCounts& counts) {
   return counts.certificate_in_vain > noticed_in_vain;
 }
 
-void CertificatePatience::count_failure() {
+void CertificateRetries::count_failure() {
   recent_ += 1.0;
   ++all_;
 }
 
-bool CertificatePatience::is_in_vain(double error) const {
+bool CertificateRetries::is_in_vain(double error) const {
   return recent_ > enough_failures && error < not_by_error;
 }
 

@@ -1,6 +1,6 @@
-// Single eigenvalues of a block along a step ("strands"), compared with closed forms at crossings, veerings
-// and exceptional points. They do not depend on the order in which places are sampled.
-#include "continuation/tracks/strands.hpp"
+// Eigenvalue branches of a block along a step, compared with closed forms at crossings, veerings and
+// exceptional points. They do not depend on the order in which places are sampled.
+#include "continuation/tracks/eigenvalue_branches.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double rounding = 1e-12;  ///< of interpolated polynomials of order one
 using Members = std::vector<int>;
 
-/// The frequencies of a family in the order that strands should have.
+/// The frequencies of a family in the order that eigenvalue branches should have.
 using Frequencies = std::function<Vector(double)>;
 
 std::vector<Complex> imaginary(const Vector& w) {
@@ -36,7 +36,7 @@ struct BlockStep {
         start(from),
         frequencies(w) {}
 
-  StrandSampler sampler() const { return {left, right, 0, length}; }
+  EigenvalueSampler sampler() const { return {left, right, 0, length}; }
   ComplexVector expected(double t) const { return j * frequencies(start + t * length).cast<Complex>(); }
 
   Planted family;
@@ -47,7 +47,7 @@ struct BlockStep {
 
 const std::vector<double> places{0.05, 0.2, 0.45, 0.5, 0.61, 0.8, 0.99, 1.0};
 
-double largest_miss_on(const BlockStep& step, StrandSampler& sampler) {
+double largest_miss_on(const BlockStep& step, EigenvalueSampler& sampler) {
   double worst = 0.0;
   for (const double t : places)
     worst = std::max(worst, (sampler(t) - step.expected(t)).cwiseAbs().maxCoeff());
@@ -84,9 +84,9 @@ BlockStep three() {
 /// Within a step a crossing cannot be distinguished from a veering with a half-width of rounding. The sampler
 /// keeps the sides, as in a veering. Crossings are recognized by the search for meetings, and steps end
 /// there.
-TEST(StrandSampler, TakesACrossingForTheNarrowestOfVeerings) {
+TEST(EigenvalueSampler, TakesACrossingForTheNarrowestOfVeerings) {
   for (const BlockStep& step : {crossing(), crossing(0.8, 0.0), three()}) {
-    StrandSampler sampler = step.sampler();
+    EigenvalueSampler sampler = step.sampler();
     EXPECT_LT(largest_miss_on(step, sampler), rounding);
   }
 }
@@ -119,7 +119,7 @@ class PassAtADistance : public testing::TestWithParam<double> {};
 TEST_P(PassAtADistance, GoesStraightOn) {
   const double damping = GetParam();
   const PassingStep step(damping);
-  StrandSampler sampler(step.left, step.right, 0, 0.6);
+  EigenvalueSampler sampler(step.left, step.right, 0, 0.6);
   for (const double t : places) {
     const std::vector<Complex> expected = PassingStep::roots(0.6 * t, damping);
     for (int i = 0; i < 3; ++i) {
@@ -128,13 +128,13 @@ TEST_P(PassAtADistance, GoesStraightOn) {
   }
 }
 
-TEST_P(PassAtADistance, ThoseThatCoincideThroughoutAreOneStrand) {
+TEST_P(PassAtADistance, ThoseThatCoincideThroughoutAreOneEigenvalueBranch) {
   const PassingStep step(GetParam());
-  StrandSampler sampler(step.left, step.right, 0, 0.6);
-  const std::vector<Strand> strands = strands_of(step.left.tracks[0], 0, sampler);
-  ASSERT_EQ(strands.size(), 2U);
-  EXPECT_EQ(strands[0].members, (Members{0, 2}));
-  EXPECT_EQ(strands[1].members, Members{1});
+  EigenvalueSampler sampler(step.left, step.right, 0, 0.6);
+  const std::vector<EigenvalueBranch> branches = eigenvalue_branches_of(step.left.tracks[0], 0, sampler);
+  ASSERT_EQ(branches.size(), 2U);
+  EXPECT_EQ(branches[0].members, (Members{0, 2}));
+  EXPECT_EQ(branches[1].members, Members{1});
 }
 
 INSTANTIATE_TEST_SUITE_P(Distances, PassAtADistance, testing::Values(0.3, 0.03, 1e-3));
@@ -143,26 +143,26 @@ class SampleVeering : public testing::TestWithParam<double> {};
 
 TEST_P(SampleVeering, EachKeepsItsSide) {
   const BlockStep step = veering(GetParam());
-  StrandSampler sampler = step.sampler();
+  EigenvalueSampler sampler = step.sampler();
   // Rounding of delta divided by the least distance of the roots.
   EXPECT_LT(largest_miss_on(step, sampler), rounding / GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, SampleVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6));
 
-TEST(StrandSampler, OrderOfSamplingDoesNotMatter) {
+TEST(EigenvalueSampler, OrderOfSamplingDoesNotMatter) {
   const BlockStep step = three();
   std::vector<double> order;
   for (int i = 0; i <= 40; ++i) order.push_back(0.025 * i);
   std::vector<ComplexVector> forwards;
-  StrandSampler first = step.sampler();
+  EigenvalueSampler first = step.sampler();
   for (const double t : order) forwards.push_back(first(t));
   std::mt19937_64 engine(5);
   for (int round = 0; round < 5; ++round) {
     std::vector<std::size_t> shuffled(order.size());
     for (std::size_t i = 0; i < shuffled.size(); ++i) shuffled[i] = i;
     std::shuffle(shuffled.begin(), shuffled.end(), engine);
-    StrandSampler again = step.sampler();
+    EigenvalueSampler again = step.sampler();
     for (const std::size_t i : shuffled) {
       EXPECT_EQ((again(order[i]) - forwards[i]).norm(), 0.0) << "t = " << order[i] << " in round " << round;
     }
@@ -171,7 +171,7 @@ TEST(StrandSampler, OrderOfSamplingDoesNotMatter) {
 
 /// Two of three that cross in the middle of the step, which is sampled before the places behind it. There
 /// rounding decides which of them is which.
-TEST(StrandSampler, PlacesBehindACrossingThatWasSampledKeepTheirSides) {
+TEST(EigenvalueSampler, PlacesBehindACrossingThatWasSampledKeepTheirSides) {
   const auto by_size = [](double p) {
     Vector w{{2.0 + p, 2.2, 2.9 - p}};
     std::sort(w.begin(), w.end());
@@ -179,7 +179,7 @@ TEST(StrandSampler, PlacesBehindACrossingThatWasSampledKeepTheirSides) {
   };
   const BlockStep step(uncoupled(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}), by_size, 0.0, 0.9);
   for (int i = 0; i < 20; ++i) {
-    StrandSampler sampler = step.sampler();
+    EigenvalueSampler sampler = step.sampler();
     sampler(0.025 * i);
     sampler(0.5);
     for (const double t : {0.5625, 0.625, 0.75, 1.0})
@@ -187,19 +187,19 @@ TEST(StrandSampler, PlacesBehindACrossingThatWasSampledKeepTheirSides) {
   }
 }
 
-TEST(StrandSampler, FirstCallMayBeAnywhere) {
+TEST(EigenvalueSampler, FirstCallMayBeAnywhere) {
   const BlockStep step = crossing();
   for (const double t : places) {
-    StrandSampler sampler = step.sampler();
+    EigenvalueSampler sampler = step.sampler();
     EXPECT_LT((sampler(t) - step.expected(t)).norm(), rounding) << t;
   }
 }
 
-TEST(StrandSampler, OfASingleModeIsItsInterpolant) {
+TEST(EigenvalueSampler, OfASingleModeIsItsInterpolant) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {5.0, 0.5}}));
   const PathNode left = family.point(0.0, alone({2.0 * j, 5.0 * j}));
   const PathNode right = family.point(0.5, alone({2.5 * j, 5.25 * j}));
-  StrandSampler sampler(left, right, 1, 0.5);
+  EigenvalueSampler sampler(left, right, 1, 0.5);
   EXPECT_EQ(sampler.functions().size(), 1);
   for (const double t : places) {
     EXPECT_LT(std::abs(sampler(t)[0] - (5.0 + 0.25 * t) * j), rounding);
@@ -208,7 +208,7 @@ TEST(StrandSampler, OfASingleModeIsItsInterpolant) {
 }
 
 /// 2 +- sqrt(p): the interpolant of delta is exact, and so are the roots up to their order.
-TEST(StrandSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
+TEST(EigenvalueSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
   Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
   const auto root = [](double p) { return std::sqrt(Complex(p)); };
   const auto both = [&](double p) {
@@ -216,7 +216,7 @@ TEST(StrandSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
   };
   const PathNode left = family.point(-0.2, both(-0.2));
   const PathNode right = family.point(0.3, both(0.3));
-  StrandSampler sampler(left, right, 0, 0.5);
+  EigenvalueSampler sampler(left, right, 0, 0.5);
   for (const double t : {0.1, 0.3, 0.5, 0.9}) {
     const ComplexVector& roots = sampler(t);
     const Complex half = j * root(0.5 * t - 0.2);
@@ -225,40 +225,41 @@ TEST(StrandSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
   }
 }
 
-TEST(StrandsOf, ModesThatMeetAreStrandsOfTheirOwn) {
+TEST(EigenvalueBranchesOf, ModesThatMeetAreEigenvalueBranchesOfTheirOwn) {
   const BlockStep step = three();
-  StrandSampler sampler = step.sampler();
-  const std::vector<Strand> strands = strands_of(step.left.tracks[0], 3, sampler);
-  ASSERT_EQ(strands.size(), 3U);
+  EigenvalueSampler sampler = step.sampler();
+  const std::vector<EigenvalueBranch> branches = eigenvalue_branches_of(step.left.tracks[0], 3, sampler);
+  ASSERT_EQ(branches.size(), 3U);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(strands[static_cast<std::size_t>(i)].members, Members{i});
-    EXPECT_EQ(strands[static_cast<std::size_t>(i)].track, 3U);
+    EXPECT_EQ(branches[static_cast<std::size_t>(i)].members, Members{i});
+    EXPECT_EQ(branches[static_cast<std::size_t>(i)].track, 3U);
   }
 }
 
-TEST(StrandsOf, ModesThatCoincideAtTheLeftEndOnlyAreTwo) {
+TEST(EigenvalueBranchesOf, ModesThatCoincideAtTheLeftEndOnlyAreTwo) {
   BlockStep step = crossing(0.3, 0.8);
   step.left.tracks[0].departure = Track::Departure{0.01, ComplexVector{{2.31 * j, 2.29 * j}}};
-  StrandSampler sampler = step.sampler();
-  EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 2U);
+  EigenvalueSampler sampler = step.sampler();
+  EXPECT_EQ(eigenvalue_branches_of(step.left.tracks[0], 0, sampler).size(), 2U);
 }
 
-/// A veering of half-width 1e-6. Samples of the step must be refined there, so that it counts as two strands.
-TEST(StrandsOf, NarrowVeeringIsTwo) {
+/// A veering of half-width 1e-6. Samples of the step must be refined there, so that it counts as two
+/// eigenvalue branches.
+TEST(EigenvalueBranchesOf, NarrowVeeringIsTwo) {
   const BlockStep step = veering(1e-6);
-  StrandSampler sampler = step.sampler();
-  EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 2U);
+  EigenvalueSampler sampler = step.sampler();
+  EXPECT_EQ(eigenvalue_branches_of(step.left.tracks[0], 0, sampler).size(), 2U);
 }
 
-TEST(StrandsOf, ADistanceOfRoundingIsNone) {
+TEST(EigenvalueBranchesOf, ADistanceOfRoundingIsNone) {
   // 2 + p and 2 + p + 1e-14.
   const BlockStep step{uncoupled(Matrix{{2.0, 1.0}, {2.0 + 1e-14, 1.0}}),
                        [](double p) {
                          return Vector{{2.0 + p, 2.0 + p}};
                        },
                        0.0, 0.5};
-  StrandSampler sampler = step.sampler();
-  EXPECT_EQ(strands_of(step.left.tracks[0], 0, sampler).size(), 1U);
+  EigenvalueSampler sampler = step.sampler();
+  EXPECT_EQ(eigenvalue_branches_of(step.left.tracks[0], 0, sampler).size(), 1U);
 }
 
 TEST(DepartingRoots, AreThoseOfThePointWhereNoneMeet) {
@@ -305,11 +306,11 @@ TEST_F(DepartureFromACrossing, KeepsWhoIsWhoInEitherOrder) {
   EXPECT_LT(roots[0].imag(), roots[1].imag());
 }
 
-TEST_F(DepartureFromACrossing, IsWhereStrandsBegin) {
+TEST_F(DepartureFromACrossing, IsWhereEigenvalueBranchesBegin) {
   const PathNode right = family.point(0.8, {{{2.8 * j, 1.8 * j}}});
   for (const bool swapped : {false, true}) {
     if (swapped) std::reverse(track.departure->roots.begin(), track.departure->roots.end());
-    StrandSampler sampler(node, right, 0, 0.5);
+    EigenvalueSampler sampler(node, right, 0, 0.5);
     const int up = swapped ? 1 : 0;
     EXPECT_LT(std::abs(sampler(0.6)[up] - 2.6 * j), rounding);
     EXPECT_LT(std::abs(sampler(1.0)[1 - up] - 1.8 * j), rounding);

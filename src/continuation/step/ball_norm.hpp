@@ -1,4 +1,4 @@
-// The norm in which the tube of a pair is measured.
+// The norm in which the Newton-Kantorovich ball of a pair is measured.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@ namespace eigentrail {
 
 /// The norm |S^-1 x| of the unknowns x = (vec Z, vec Lambda / scale) of a pair: S = (I x R^-1 + I) D, where R
 /// is that of an energy norm, for every column of Z, and D that of an adapted norm. Plain until they are set.
-class TubeNorm {
+class BallNorm {
  public:
   /// Z is n x k.
-  TubeNorm(Eigen::Index n, Eigen::Index k) : n_(n), k_(k) {}
+  BallNorm(Eigen::Index n, Eigen::Index k) : n_(n), k_(k) {}
 
   /// From here on by energy, scaled so that it leaves the norm of Z as it is.
   void set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z);

@@ -1,13 +1,13 @@
-#include "continuation/tracks/newcomers.hpp"
+#include "continuation/tracks/entering_modes.hpp"
 
 #include <algorithm>
 
 #include "continuation/point/point_solver.hpp"
 #include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/completeness.hpp"
+#include "continuation/tracks/guard_modes.hpp"
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/recognition.hpp"
-#include "continuation/tracks/silent_partners.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/continuation/point_modes.hpp"
@@ -35,7 +35,7 @@ int growing_roots(const ComplexVector& roots) {
   return static_cast<int>((roots.real().array() > 0.0 && roots.imag().array() >= 0.0).count());
 }
 
-/// Makes guests of the modes of a track that are not needed: neither wanted, nor growing by more than
+/// Makes guard modes of the modes of a track that are not needed: neither wanted, nor growing by more than
 /// rounding. Returns whether any is.
 template <class IsWanted>
 bool dismiss_unneeded(const PathProblem& problem, const IsWanted& is_wanted, Track& track) {
@@ -44,37 +44,37 @@ bool dismiss_unneeded(const PathProblem& problem, const IsWanted& is_wanted, Tra
   for (Eigen::Index i = 0; i < track.size(); ++i) {
     int& mode = track.modes[static_cast<std::size_t>(i)];
     const bool grows = track.roots[i].real() > rounding[i];  // also of 1/s
-    if (mode >= 0 && !grows && !is_wanted(chart_value(track.roots[i], track.pair.chart))) mode = Track::guest;
+    if (mode >= 0 && !grows && !is_wanted(chart_value(track.roots[i], track.pair.chart))) mode = Track::guard;
     any = any || mode >= 0;
   }
   return any;
 }
 
-/// A newcomer in a block with the mode that nobody follows and that it meets on a step of length h, or near
-/// it; empty if there is none.
-std::optional<Track> with_partner(const PathProblem& problem, const Track& newcomer, double h, double reach,
-                                  PathNode node, RunCounts& counts) {
-  node.tracks.push_back(newcomer);
+/// An entering mode in a block with the mode that nobody follows and that it meets on a step of length h, or
+/// near it; empty if there is none.
+std::optional<Track> with_partner(const PathProblem& problem, const Track& entering_mode, double h,
+                                  double reach, PathNode node, RunCounts& counts) {
+  node.tracks.push_back(entering_mode);
   if (!join_unfollowed(problem, node, node.tracks.size() - 1, h, reach, counts)) return std::nullopt;
   return std::move(node.tracks.back());
 }
 
-/// A newcomer at the left end of the step of length h behind which it was noticed; empty if it is not
+/// An entering mode at the left end of the step of length h behind which it was noticed; empty if it is not
 /// recognized there, or followed already.
-std::optional<Track> at_left_end(const PathProblem& problem, const Track& newcomer, double h,
+std::optional<Track> at_left_end(const PathProblem& problem, const Track& entering_mode, double h,
                                  const PathNode& left, RunCounts& counts) {
-  auto track = recognize(problem, left, predicted_pair(newcomer, -h), counts);
+  auto track = recognize(problem, left, predicted_pair(entering_mode, -h), counts);
   if (!track) return std::nullopt;
-  const ComplexVector expected = block_roots(evaluate_series(newcomer.functions, -h));
-  track->modes = newcomer.modes;
-  track->roots = in_order_of(in_order_of(newcomer.roots, expected), track->roots);
+  const ComplexVector expected = block_roots(evaluate_series(entering_mode.functions, -h));
+  track->modes = entering_mode.modes;
+  track->roots = in_order_of(in_order_of(entering_mode.roots, expected), track->roots);
   return track;
 }
 
 }  // namespace
 
-Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
-                    RunCounts& counts) {
+EnteringModes entering_modes(const PathProblem& problem, const ModeChoice& choice, const PathNode& node,
+                             RunCounts& counts) {
   const bool is_whole = problem.model.projection() == nullptr;
   if (!is_whole && !choice.may_grow()) return {};
   const bool meeting = std::any_of(node.tracks.begin(), node.tracks.end(),
@@ -91,7 +91,7 @@ Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const 
   const auto needed_end = std::stable_partition(others.begin(), others.end(), [&](const StartingMode& mode) {
     return (is_wanted(mode.s) || (may_grow && mode.s.real() > 0.0)) && has_arrived(problem, node, mode.s);
   });
-  Newcomers found{{}, is_whole ? 0 : -1};
+  EnteringModes found{{}, is_whole ? 0 : -1};
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(needed_end - others.begin()), problem.s_ref)) {
     InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
@@ -111,14 +111,14 @@ Newcomers newcomers(const PathProblem& problem, const ModeChoice& choice, const 
   return found;
 }
 
-int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers, double h,
+int follow_back(const PathProblem& problem, const std::vector<Track>& entering_modes, double h,
                 const PathNode& right, double reach, PathNode& left, ModeNumbers& numbers,
                 RunCounts& counts) {
   int added = 0;
-  for (const Track& newcomer : newcomers) {
-    auto track = at_left_end(problem, newcomer, h, left, counts);
+  for (const Track& entering_mode : entering_modes) {
+    auto track = at_left_end(problem, entering_mode, h, left, counts);
     if (!track) {
-      if (const auto block = with_partner(problem, newcomer, -h, reach, right, counts))
+      if (const auto block = with_partner(problem, entering_mode, -h, reach, right, counts))
         track = at_left_end(problem, *block, h, left, counts);
     }
     if (track) added += add(std::move(*track), left, numbers);
@@ -126,19 +126,19 @@ int follow_back(const PathProblem& problem, const std::vector<Track>& newcomers,
   return added;
 }
 
-int number_growing_guests(const PathProblem& problem, const PathNode& right, PathNode& left,
+int number_growing_guards(const PathProblem& problem, const PathNode& right, PathNode& left,
                           ModeNumbers& numbers) {
   int found = 0;
   for (std::size_t t = 0; t < right.tracks.size(); ++t) {
     const Track& end = right.tracks[t];
     std::vector<int>& modes = left.tracks[t].modes;
-    if (std::find(modes.begin(), modes.end(), Track::guest) == modes.end()) continue;
+    if (std::find(modes.begin(), modes.end(), Track::guard) == modes.end()) continue;
     const Vector rounding = rounding_of_roots(end, problem.thresholds.rounding);
     for (Eigen::Index i = 0; i < end.size(); ++i) {
       int& mode = modes[static_cast<std::size_t>(i)];
       // Of a pair in a real block the member with Im s > 0 has the number.
       const bool is_lower = end.pair.is_real && chart_value(end.roots[i], end.pair.chart).imag() < 0.0;
-      if (mode != Track::guest || is_lower || !(end.roots[i].real() > rounding[i])) continue;
+      if (mode != Track::guard || is_lower || !(end.roots[i].real() > rounding[i])) continue;
       mode = numbers.count++;
       ++found;
       Eigen::Index partner = i;
@@ -149,11 +149,11 @@ int number_growing_guests(const PathProblem& problem, const PathNode& right, Pat
   return found;
 }
 
-int begin_here(const PathProblem& problem, std::vector<Track> newcomers, PathNode& node,
+int begin_here(const PathProblem& problem, std::vector<Track> entering_modes, PathNode& node,
                ModeNumbers& numbers) {
   int added = 0;
-  for (Track& newcomer : newcomers) {
-    if (!is_followed(problem, node, newcomer)) added += add(std::move(newcomer), node, numbers);
+  for (Track& entering_mode : entering_modes) {
+    if (!is_followed(problem, node, entering_mode)) added += add(std::move(entering_mode), node, numbers);
   }
   return added;
 }

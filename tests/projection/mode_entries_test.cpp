@@ -12,7 +12,7 @@ namespace {
 
 /// n independent masses with s^2 = -k: k = 1, 2 and 3 of the modes that are followed, k = 3 + 4 (entry -
 /// omega) of one that comes below them at omega = entry, and 30 and more of all others.
-AffinePencil<SparseMatrix> masses_with_a_newcomer(Eigen::Index n, double entry) {
+AffinePencil<SparseMatrix> masses_with_an_entering_mode(Eigen::Index n, double entry) {
   SparseMatrix M(n, n), K0(n, n), K1(n, n);
   M.setIdentity();
   for (Eigen::Index i = 0; i < n; ++i)
@@ -24,9 +24,9 @@ AffinePencil<SparseMatrix> masses_with_a_newcomer(Eigen::Index n, double entry) 
   return {{{1.0, M}}, {}, {{1.0, K0}, {Expression::of_parameter(0), K1}}};
 }
 
-TEST(Newcomers, AreNotedWithinTheStepInWhichTheyEnter) {
+TEST(ModeEntries, AreNotedWithinTheStepInWhichTheyEnter) {
   for (const double entry : {0.08, 0.37, 0.625, 0.93}) {
-    const TraceSetup setup = large_setup(masses_with_a_newcomer(300, entry), 0.0, 1.0, 3, 1e-6);
+    const TraceSetup setup = large_setup(masses_with_an_entering_mode(300, entry), 0.0, 1.0, 3, 1e-6);
     const auto model = project(dynamic_cast<const SparseFamily&>(*setup.model), setup.options);
     ASSERT_EQ(model->projection()->notes.size(), 1U) << entry;
     const std::string& note = model->projection()->notes.front();
@@ -44,8 +44,8 @@ TEST(Newcomers, AreNotedWithinTheStepInWhichTheyEnter) {
   }
 }
 
-TEST(Newcomers, AreNotNotedWhereTheyStayAway) {
-  const TraceSetup setup = large_setup(masses_with_a_newcomer(300, 1.1), 0.0, 1.0, 3, 1e-6);
+TEST(ModeEntries, AreNotNotedWhereTheyStayAway) {
+  const TraceSetup setup = large_setup(masses_with_an_entering_mode(300, 1.1), 0.0, 1.0, 3, 1e-6);
   const auto model = project(dynamic_cast<const SparseFamily&>(*setup.model), setup.options);
   EXPECT_TRUE(model->projection()->notes.empty()) << model->projection()->notes.front();
 }

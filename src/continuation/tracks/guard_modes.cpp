@@ -1,4 +1,4 @@
-#include "continuation/tracks/silent_partners.hpp"
+#include "continuation/tracks/guard_modes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -76,8 +76,8 @@ ComplexVector real_vector(const ComplexVector& z) {
 /// The eigenvalues about `centre`, one of a track, by inverse iteration: with a real subspace about a real
 /// one.
 Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track, Complex centre) {
-  const bool is_chiral = pencil.chirality != 0;
-  const Eigen::Index size = std::min(track.size() + beside, (is_chiral ? 1 : 2) * pencil.size());
+  const bool is_complex_part = pencil.complex_sign != 0;
+  const Eigen::Index size = std::min(track.size() + beside, (is_complex_part ? 1 : 2) * pencil.size());
   const InvariantPair pair = invariant_subspace(pencil, centre, size, centre.imag() == 0.0);
   Spectrum spectrum;
   if (!pair.Z.allFinite() || !pair.Lambda.allFinite()) return spectrum;
@@ -85,12 +85,12 @@ Spectrum spectrum_beside(const ReducedPencil& pencil, const Track& track, Comple
   for (Eigen::Index i = 0; i < size; ++i) {
     Complex s = ritz.s[i];
     ComplexVector z = ritz.Z.col(i).normalized();
-    if (is_chiral && s.imag() < 0.0) continue;  // the conjugate of a mode of the twin
+    if (is_complex_part && s.imag() < 0.0) continue;  // the conjugate of a mode of the conjugate part
     if (s.imag() < 0.0) {
       s = std::conj(s);
       z = z.conjugate();
     }
-    if (!is_chiral && s.imag() <= real_axis * std::abs(s)) {
+    if (!is_complex_part && s.imag() <= real_axis * std::abs(s)) {
       z = real_vector(z);
       s = s.real();
     }
@@ -123,11 +123,11 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
 /// A pair that was corrected from an inaccurate start as the member with Im s >= 0: else the conjugate of a
 /// followed mode would be taken for another one. A complex start may have led to a real eigenvalue: in a
 /// complex block that one could not be told from its conjugate where the block meets its own.
-InvariantPair upper_member(const PencilAtPoint& pencil, InvariantPair pair, bool is_chiral, double s_ref,
-                           const CorrectorOptions& options, ModeCounts& counts) {
+InvariantPair upper_member(const PencilAtPoint& pencil, InvariantPair pair, bool is_complex_part,
+                           double s_ref, const CorrectorOptions& options, ModeCounts& counts) {
   if (pair.size() != 1 || pair.is_real) return pair;
   const Complex s = pair.eigenvalue();
-  if (!is_chiral && std::abs(s.imag()) <= real_axis * std::abs(s)) {
+  if (!is_complex_part && std::abs(s.imag()) <= real_axis * std::abs(s)) {
     InvariantPair start = pair;
     start.Z = real_vector(pair.Z.col(0));
     start.Lambda = s.real() * ComplexMatrix::Identity(1, 1);
@@ -142,14 +142,14 @@ InvariantPair upper_member(const PencilAtPoint& pencil, InvariantPair pair, bool
 /// Whether a track is followed by its eigenvalues with Im s < 0: in the chart 1/s, those with Im (1/s) > 0
 /// are.
 bool is_followed_below(const PathNode& node, const Track& track) {
-  return !track.pair.is_real && node.pencil.of(track.pair.part).chirality == 0 &&
+  return !track.pair.is_real && node.pencil.of(track.pair.part).complex_sign == 0 &&
          chart_value(track.roots.mean(), track.pair.chart).imag() < 0.0;
 }
 
-/// The problem with thresholds that tell whether a guest is a mode that is followed. An inaccurate start may
-/// converge to one. Where two have just met, their eigenvalues differ from those of the guest by the root of
-/// rounding, relative to the pencil, whose measure is the largest eigenvalue; the spaces agree.
-PathProblem for_comparison_with_guests(PathProblem problem, const PathNode& node, const Track& track) {
+/// The problem with thresholds that tell whether a guard mode is a mode that is followed. An inaccurate start
+/// may converge to one. Where two have just met, their eigenvalues differ from those of the guard mode by the
+/// root of rounding, relative to the pencil, whose measure is the largest eigenvalue; the spaces agree.
+PathProblem for_comparison_with_guards(PathProblem problem, const PathNode& node, const Track& track) {
   double& distance = problem.thresholds.identity.merged_distance;
   distance = std::max(same, distance);
   if (!track.departure) return problem;
@@ -167,7 +167,7 @@ PathProblem for_comparison_with_guests(PathProblem problem, const PathNode& node
 void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
   if (node.pencil.of(node.tracks[track].pair.part).size() > most_freedoms) return;
   const StageTimer timer(counts.matching_seconds);
-  const PathProblem compared = for_comparison_with_guests(problem, node, node.tracks[track]);
+  const PathProblem compared = for_comparison_with_guards(problem, node, node.tracks[track]);
   const std::vector<StartingMode> others = neighbours_of(problem, node, node.tracks[track]);
   const bool is_below = is_followed_below(node, node.tracks[track]);
   for (const StartingGroup& group :
@@ -175,21 +175,21 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     const PencilAtPoint pencil(node.pencil.of(group.pair.part));
     InvariantPair pair = correct_pair(pencil, group.pair, problem.s_ref, problem.corrector, counts.modes);
     if (pair.status != PairStatus::converged) continue;
-    pair = upper_member(pencil, std::move(pair), node.pencil.of(group.pair.part).chirality != 0,
+    pair = upper_member(pencil, std::move(pair), node.pencil.of(group.pair.part).complex_sign != 0,
                         problem.s_ref, problem.corrector, counts.modes);
-    Track guest = differentiate_track(problem, node, std::move(pair), counts);
-    if (!guest.functions.allFinite()) continue;
-    if (is_followed(compared, node, guest)) continue;
+    Track guard = differentiate_track(problem, node, std::move(pair), counts);
+    if (!guard.functions.allFinite()) continue;
+    if (is_followed(compared, node, guard)) continue;
     // It meets the track in the half-plane in which that is followed.
-    if (is_below && guest.size() == 1 && !guest.pair.is_real)
-      guest = differentiate_track(problem, node, conjugated(guest.pair), counts);
-    guest.roots = in_order_of(group.roots, guest.roots);
-    guest.modes.assign(group.modes.size(), Track::guest);
-    node.tracks.push_back(std::move(guest));
+    if (is_below && guard.size() == 1 && !guard.pair.is_real)
+      guard = differentiate_track(problem, node, conjugated(guard.pair), counts);
+    guard.roots = in_order_of(group.roots, guard.roots);
+    guard.modes.assign(group.modes.size(), Track::guard);
+    node.tracks.push_back(std::move(guard));
   }
 }
 
-void remove_guests(PathNode& node) {
+void remove_guards(PathNode& node) {
   std::erase_if(node.tracks, [](const Track& track) {
     return std::all_of(track.modes.begin(), track.modes.end(), [](int mode) { return mode < 0; });
   });
@@ -212,7 +212,7 @@ bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t tra
   if (!partners.empty()) partners.resize(1);
   const bool joined = !partners.empty() && join(problem, node, track, partners, counts);
   if (joined) node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
-  remove_guests(node);
+  remove_guards(node);
   return joined;
 }
 

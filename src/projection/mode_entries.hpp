@@ -12,7 +12,7 @@ namespace eigentrail {
 /// Eigenvalues below this share of the largest one beside them are rigid-body motions: nobody asks for them.
 inline constexpr double rigid = 1e-6;
 
-struct Newcomers {
+struct ModeEntries {
   int count = 0;                ///< how often a mode comes among the followed ones
   double from = 0.0, to = 0.0;  ///< places between which the first one does
   double frequency = 0.0;       ///< its Im s, rad/s
@@ -20,7 +20,8 @@ struct Newcomers {
 
 /// Modes that come nearer to `centre` than the farthest followed one, at places in the order of the path.
 /// `reference`: magnitude below which an eigenvalue counts as zero, 1/s.
-Newcomers find_newcomers(const LargeModel& large, const Model& model,
-                         const std::vector<ProjectedPlace>& places, const Shift& centre, double reference);
+ModeEntries find_mode_entries(const LargeModel& large, const Model& model,
+                              const std::vector<ProjectedPlace>& places, const Shift& centre,
+                              double reference);
 
 }  // namespace eigentrail

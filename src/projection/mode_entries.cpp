@@ -1,4 +1,4 @@
-#include "projection/newcomers.hpp"
+#include "projection/mode_entries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,9 +103,10 @@ std::vector<Complex> among_the_followed(const LargeModel& large, const Model& mo
 
 }  // namespace
 
-Newcomers find_newcomers(const LargeModel& large, const Model& model,
-                         const std::vector<ProjectedPlace>& places, const Shift& centre, double reference) {
-  Newcomers found;
+ModeEntries find_mode_entries(const LargeModel& large, const Model& model,
+                              const std::vector<ProjectedPlace>& places, const Shift& centre,
+                              double reference) {
+  ModeEntries found;
   std::size_t known = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const std::vector<Complex> there = among_the_followed(large, model, places[i], centre, reference);

@@ -1,4 +1,5 @@
-// Strands: the eigenvalues of a track on a step one by one, each followed continuously from the left end.
+// Eigenvalue branches: the eigenvalues of a track on a step one by one, each followed continuously from the
+// left end.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +13,18 @@
 namespace eigentrail {
 
 /// An eigenvalue of a track, or several of them that coincide on the whole step.
-struct Strand {
+struct EigenvalueBranch {
   std::size_t track = 0;     ///< index of the track
   std::vector<int> members;  ///< indices of the roots of the track, ascending
 };
 
 /// Eigenvalues of one track on a step at any t in [0, 1], in the order of its modes. Remembers those that it
 /// has computed.
-class StrandSampler {
+class EigenvalueSampler {
  public:
   /// `index`: of the track, the same at both ends. `length`: signed length of the step. Keeps a reference to
   /// the track.
-  StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
+  EigenvalueSampler(const PathNode& left, const PathNode& right, std::size_t index, double length);
 
   /// Smooth functions of the track on the step (modes/invariants.hpp).
   const HermiteInterpolant& functions() const { return functions_; }
@@ -65,8 +66,9 @@ constexpr double farthest_departure = 0.1;
 /// steps, else to zero.
 ComplexVector departing_roots(const Track& track, double h, double& position);
 
-/// The strands of a track on a step. `index`: of the track. Eigenvalues that coincide at all of several
-/// samples form one strand.
-std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler);
+/// The eigenvalue branches of a track on a step. `index`: of the track. Eigenvalues that coincide at all of
+/// several samples form one eigenvalue branch.
+std::vector<EigenvalueBranch> eigenvalue_branches_of(const Track& track, std::size_t index,
+                                                     EigenvalueSampler& sampler);
 
 }  // namespace eigentrail

@@ -37,9 +37,9 @@ std::pair<double, double> exact(double p, double coupling) {
   return {std::sqrt(0.5 * (a + b) - root), std::sqrt(0.5 * (a + b) + root)};
 }
 
-class Newcomers : public testing::TestWithParam<double> {};
+class EnteringModes : public testing::TestWithParam<double> {};
 
-TEST_P(Newcomers, AModeThatEntersTheBandIsFollowedFromTheStepInWhichItDoes) {
+TEST_P(EnteringModes, AModeThatEntersTheBandIsFollowedFromTheStepInWhichItDoes) {
   const double coupling = GetParam();
   const auto traced = record_trace(make_setting(two_oscillators(coupling, "{ band = [2.5, 6] }", 1.8)));
   ASSERT_EQ(traced.result.status, TraceStatus::completed);
@@ -54,9 +54,9 @@ TEST_P(Newcomers, AModeThatEntersTheBandIsFollowedFromTheStepInWhichItDoes) {
   EXPECT_NEAR(exact(entries[0].p, coupling).first, 2.5, 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Coupling, Newcomers, testing::Values(0.0, 0.1));
+INSTANTIATE_TEST_SUITE_P(Coupling, EnteringModes, testing::Values(0.0, 0.1));
 
-TEST(NewcomersOnTheRange, LeavingTheBandIsAnEventAndTheModeIsFollowedOn) {
+TEST(EnteringModesOnTheRange, LeavingTheBandIsAnEventAndTheModeIsFollowedOn) {
   const auto traced = record_trace(make_setting(two_oscillators(0.0, "{ band = [3.5, 6] }")));
   ASSERT_EQ(traced.result.status, TraceStatus::completed);
   const auto edges = events_of(traced.result.events, EventKind::band_edge);
@@ -67,18 +67,18 @@ TEST(NewcomersOnTheRange, LeavingTheBandIsAnEventAndTheModeIsFollowedOn) {
   EXPECT_EQ(edges[1].direction, 1);
 }
 
-TEST(NewcomersOnTheRange, AResumedTraceIsTheSameBitForBit) {
+TEST(EnteringModesOnTheRange, AResumedTraceIsTheSameBitForBit) {
   const test::Setting setting = make_setting(two_oscillators(0.1, "{ band = [2.5, 6] }"));
   EXPECT_EQ(test::first_resumed_difference(*setting.model, setting.options, 40), "");
 }
 
-TEST(NewcomersOnTheRange, AChoiceByCountDoesNotGrow) {
+TEST(EnteringModesOnTheRange, AChoiceByCountDoesNotGrow) {
   const auto traced = record_trace(make_setting(two_oscillators(0.1, "{ count = 1, band = [2.5, 6] }", 1.8)));
   ASSERT_EQ(traced.result.status, TraceStatus::completed);
   EXPECT_EQ(traced.result.n_columns, 1);
 }
 
-TEST(NewcomersOnTheRange, AModeThatBecomesLightlyDampedIsTaken) {
+TEST(EnteringModesOnTheRange, AModeThatBecomesLightlyDampedIsTaken) {
   // s^2 + 2 (1 - p) s + 1 and s^2 + 0.1 s + 9: the first is damped with the ratio 1 - p.
   const auto traced = record_trace(make_setting(
       "[trace]\nparameter = \"p\"\nfrom = 0.2\nto = 0.9\nmodes = { damping_below = 0.5 }\n"
@@ -89,7 +89,7 @@ TEST(NewcomersOnTheRange, AModeThatBecomesLightlyDampedIsTaken) {
   EXPECT_EQ(traced.result.n_columns, 2);
 }
 
-TEST(NewcomersOnTheRange, NothingInTheBandAtTheStartTakesTheNearestAndSaysSo) {
+TEST(EnteringModesOnTheRange, NothingInTheBandAtTheStartTakesTheNearestAndSaysSo) {
   const auto traced = record_trace(make_setting(two_oscillators(0.1, "{ band = [7, 8] }")));
   ASSERT_EQ(traced.result.status, TraceStatus::completed);
   EXPECT_EQ(traced.result.n_modes, 1);

@@ -1,4 +1,4 @@
-#include "continuation/step/tube_norm.hpp"
+#include "continuation/step/ball_norm.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -6,32 +6,32 @@
 
 namespace eigentrail {
 
-void TubeNorm::set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z) {
+void BallNorm::set_energy(std::shared_ptr<const EnergyNorm> energy, const ComplexMatrix& Z) {
   energy_ = std::move(energy);
   if (energy_) factor_ = Z.norm() / energy_->times(Z).norm();
 }
 
-void TubeNorm::apply(ComplexVector& x) const {
+void BallNorm::apply(ComplexVector& x) const {
   adapted_.apply(x);
   from_energy(x);
 }
 
-void TubeNorm::apply_adjoint(ComplexVector& x) const {
+void BallNorm::apply_adjoint(ComplexVector& x) const {
   from_energy_adjoint(x);
   adapted_.apply(x);
 }
 
-void TubeNorm::apply_inverse(ComplexVector& x) const {
+void BallNorm::apply_inverse(ComplexVector& x) const {
   to_energy(x);
   adapted_.apply_inverse(x);
 }
 
-void TubeNorm::apply_inverse_adjoint(ComplexVector& x) const {
+void BallNorm::apply_inverse_adjoint(ComplexVector& x) const {
   adapted_.apply_inverse(x);
   to_energy_adjoint(x);
 }
 
-double TubeNorm::largest_eigenvalue_part() const {
+double BallNorm::largest_eigenvalue_part() const {
   if (adapted_.is_plain()) return 1.0;
   // The rows of D that belong to Lambda; D is Hermitian, so that they are columns as well.
   const Eigen::Index size = n_ * k_ + k_ * k_;

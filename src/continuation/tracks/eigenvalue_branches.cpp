@@ -1,4 +1,4 @@
-#include "continuation/tracks/strands.hpp"
+#include "continuation/tracks/eigenvalue_branches.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,8 @@ ComplexVector departing_roots(const Track& track, double h, double& position) {
                      block_roots(evaluate_series(track.functions, share * departure.distance)));
 }
 
-StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::size_t index, double length)
+EigenvalueSampler::EigenvalueSampler(const PathNode& left, const PathNode& right, std::size_t index,
+                                     double length)
     : track_(left.tracks[index]), functions_(functions_on_step(left, right, index, length)) {
   const Track& track = left.tracks[index];
   ComplexVector roots = departing_roots(track, length, start_);
@@ -49,7 +50,7 @@ StrandSampler::StrandSampler(const PathNode& left, const PathNode& right, std::s
   known_.emplace(start_, std::move(roots));
 }
 
-bool StrandSampler::are_distinct(const ComplexVector& roots) const {
+bool EigenvalueSampler::are_distinct(const ComplexVector& roots) const {
   const ComplexVector& start = known_.at(start_);
   for (Eigen::Index i = 0; i < roots.size(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -60,7 +61,7 @@ bool StrandSampler::are_distinct(const ComplexVector& roots) const {
   return true;
 }
 
-const ComplexVector& StrandSampler::operator()(double t) {
+const ComplexVector& EigenvalueSampler::operator()(double t) {
   const auto above = known_.upper_bound(t);
   const auto nearest = above == known_.begin() ? above : std::prev(above);
   if (nearest->first == t) return nearest->second;
@@ -71,7 +72,7 @@ const ComplexVector& StrandSampler::operator()(double t) {
   return known_.emplace(t, follow_roots(functions_, from->second, from->first, t)).first->second;
 }
 
-bool StrandSampler::are_hidden(Eigen::Index i, Eigen::Index j) {
+bool EigenvalueSampler::are_hidden(Eigen::Index i, Eigen::Index j) {
   return std::all_of(samples.begin(), samples.end(), [&](double t) {
     const ComplexVector& roots = (*this)(t);
     const Vector errors = rounding_of_roots(track_, functions_(t), roots, RoundingThresholds());
@@ -79,32 +80,33 @@ bool StrandSampler::are_hidden(Eigen::Index i, Eigen::Index j) {
   });
 }
 
-double StrandSampler::resolution_at(double t, Eigen::Index i, Eigen::Index j) {
+double EigenvalueSampler::resolution_at(double t, Eigen::Index i, Eigen::Index j) {
   if (functions_.size() <= 4) return resolution(i, j);  // blocks of one and two
   const ComplexVector& roots = (*this)(t);
   const Vector there = root_resolutions(functions_(t), roots);
   return std::max(resolution(i, j), std::min(there[i], there[j]));
 }
 
-std::vector<Strand> strands_of(const Track& track, std::size_t index, StrandSampler& sampler) {
+std::vector<EigenvalueBranch> eigenvalue_branches_of(const Track& track, std::size_t index,
+                                                     EigenvalueSampler& sampler) {
   const auto coincide = [&](Eigen::Index i, Eigen::Index j) {
     return std::all_of(samples.begin(), samples.end(), [&](double t) {
       const ComplexVector& roots = sampler(t);
       return std::abs(roots[i] - roots[j]) <= sampler.resolution(i, j);
     });
   };
-  std::vector<Strand> strands;
+  std::vector<EigenvalueBranch> branches;
   for (int i = 0; i < static_cast<int>(track.size()); ++i) {
-    const auto known = std::find_if(strands.begin(), strands.end(), [&](const Strand& strand) {
-      return coincide(strand.members.front(), i);
+    const auto known = std::find_if(branches.begin(), branches.end(), [&](const EigenvalueBranch& branch) {
+      return coincide(branch.members.front(), i);
     });
-    if (known == strands.end()) {
-      strands.push_back({index, {i}});
+    if (known == branches.end()) {
+      branches.push_back({index, {i}});
     } else {
       known->members.push_back(i);
     }
   }
-  return strands;
+  return branches;
 }
 
 }  // namespace eigentrail

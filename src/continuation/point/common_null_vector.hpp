@@ -1,4 +1,5 @@
-// Freedoms without mass, damping and stiffness. They make the pencil singular.
+// Common null vectors of M, C and K: freedoms without mass, damping and stiffness. They make the pencil
+// singular.
 #pragma once
 
 #include <string>
@@ -9,6 +10,6 @@ namespace eigentrail {
 
 /// If M, C and K of the point's pencil have a common null vector, the name of the coordinate that moves most
 /// in it; else empty.
-std::string idle_coordinate(const Model& model, const PathPoint& point);
+std::string null_vector_coordinate(const Model& model, const PathPoint& point);
 
 }  // namespace eigentrail

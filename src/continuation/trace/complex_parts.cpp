@@ -1,4 +1,4 @@
-#include "continuation/trace/chiral_parts.hpp"
+#include "continuation/trace/complex_parts.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace eigentrail {
 
 bool is_near_real_axis(const PathProblem& problem, const PathNode& node) {
   return std::any_of(node.tracks.begin(), node.tracks.end(), [&](const Track& track) {
-    if (node.pencil.of(track.pair.part).chirality == 0) return false;
+    if (node.pencil.of(track.pair.part).complex_sign == 0) return false;
     return std::any_of(track.roots.begin(), track.roots.end(), [&](Complex root) {
       const Complex s = chart_value(root, track.pair.chart);
       return s.imag() <= 0.0 || is_near_real_axis(s, problem.s_ref);
