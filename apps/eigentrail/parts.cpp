@@ -40,7 +40,9 @@ std::unique_ptr<UnfinishedRun> unfinished_run(OutputChoice& output, SharedRun ru
 }
 
 bool has_ended(const OutputChoice& output, const Team& team, const std::function<bool()>& complete) {
-  if (!output.resume || !std::filesystem::exists(output.path) || is_unfinished(output.path) || !complete())
+  std::error_code not_found;
+  if (!output.resume || !std::filesystem::exists(output.path, not_found) || is_unfinished(output.path) ||
+      !complete())
     return false;
   if (team.leads() && !output.quiet)
     std::printf("%s: the run has come to its end already\n", output.path.c_str());

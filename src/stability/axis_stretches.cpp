@@ -13,8 +13,6 @@
 namespace eigentrail {
 namespace {
 
-/// An event with |Re s| below this multiple of max(|s|, reference) lies on the imaginary axis.
-constexpr double axis_width = 1e-6;
 constexpr int axis_samples_per_step = 8;
 /// Events closer together than this, relative to the steps that they are on, form one cut: nearer than the
 /// dense output tells them apart.
@@ -106,6 +104,17 @@ bool passes(const Event& event) {
   return event.kind == EventKind::flutter || event.kind == EventKind::divergence;
 }
 
+/// Whether an event lies on the imaginary axis: modes pass it there, or Re s is below its error by rounding.
+/// Files without that error have the dense output's.
+bool is_on_axis(const RecordedPath& path, const Event& event, const EigenvalueAccuracy& accuracy) {
+  double doubt = path.rounding.size() > 0 ? 0.0 : accuracy.tolerance * scale_of(event.s, accuracy);
+  const std::size_t node = std::min(static_cast<std::size_t>(std::max(event.node, 0)), path.p.size() - 1);
+  for (const int mode : event.modes) {
+    if (const double rounding = path.rounding_at(node, mode); rounding > doubt) doubt = rounding;
+  }
+  return passes(event) || std::abs(event.s.real()) <= doubt;
+}
+
 /// Position of an event on the step that ends at node `event.node`.
 PathPosition position_of(const RecordedPath& path, const Event& event) {
   const std::size_t last = path.steps.size() - 1;
@@ -127,8 +136,7 @@ std::vector<AxisCut> event_cuts(const RecordedPath& path, const std::vector<Even
   std::vector<AxisCut> cuts;
   for (const Event& event : events) {
     const bool turns = event.kind == EventKind::fold || event.kind == EventKind::branch_point;
-    const bool on_axis = std::abs(event.s.real()) <= axis_width * scale_of(event.s, accuracy);
-    if (!turns && (!on_axis || event.kind == EventKind::veering)) continue;
+    if (!turns && (event.kind == EventKind::veering || !is_on_axis(path, event, accuracy))) continue;
     cuts.push_back({position_of(path, event), event.p, event.s, event.modes, event_name(event.kind), true,
                     passes(event), turns});
   }

@@ -1,7 +1,8 @@
 #include "stability/boundary_mode.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/matrix_series.hpp"
@@ -191,19 +192,13 @@ BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, std::spa
     block.Lambda = ComplexMatrix::Zero(1, 1);
     return block;
   }
-  if (kind == BoundaryKind::coalescence) {
-    ComplexMatrix both(modes[0].z.size(), 2);
-    both << modes[0].z, modes[1].z;
-    const Eigen::HouseholderQR<ComplexMatrix> qr(both);
-    const ComplexMatrix R = qr.matrixQR().topRows(2).triangularView<Eigen::Upper>();
-    block.Z = physical(qr.householderQ() * ComplexMatrix::Identity(both.rows(), 2));
-    block.Lambda = R * Eigen::Vector2cd(modes[0].s, modes[1].s).asDiagonal() * R.inverse();
-    return block;
+  std::array<InvariantPair, 2> upper;
+  for (std::size_t i = 0; i < std::min<std::size_t>(modes.size(), 2); ++i) {
+    upper[i].Z = modes[i].z;
+    upper[i].Lambda = ComplexMatrix::Constant(1, 1, modes[i].s);
   }
-  InvariantPair upper;
-  upper.Z = modes[0].z;
-  upper.Lambda = ComplexMatrix::Constant(1, 1, modes[0].s);
-  const InvariantPair pair = with_conjugate(upper);
+  const InvariantPair pair = kind == BoundaryKind::coalescence ? join_pairs({&upper[0], &upper[1]}, false)
+                                                               : with_conjugate(upper[0]);
   block.Z = physical(pair.Z);
   block.Lambda = pair.Lambda;
   return block;

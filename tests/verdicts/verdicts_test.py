@@ -351,6 +351,22 @@ class UndampedBoundaries(VerdictTest):
                 self.assertLess(abs(p - (1 - q / 10)), 1e-8)
                 self.assertLess(abs(s ** 2 + (4 + q / 5) / 2), 1e-6)
 
+    def test_gyroscopic_stabilization_is_followed(self):
+        # x'' - 2 W y' - x = 0, y'' + 2 W x' - b y = 0 is stable above W = (1 + sqrt(b)) / 2, where s^4 = b.
+        self.write("gyroscopic.toml", """
+            parameters = { W = 1, b = 1 }
+            trace = { parameter = "W", from = 0.5, to = 3, tolerance = 1e-8 }
+            [matrix_family]
+            M = [[[1, 0], [0, 1]]]
+            C = [[[0, 0], [0, 0]], [[0, -2], [2, 0]]]
+            K = [[[-1, 0], [0, "-b"]]]
+            """)
+        with self.boundary("gyroscopic.toml", "--second", "b", "--from", 1.5, "--to", 4) as found:
+            self.assertEqual(len(found["curve_points"]), 1)
+            for W, b, s in zip(found["W"][:], found["b"][:], found["eigenvalue"][:]):
+                self.assertLess(abs(W - (1 + math.sqrt(b)) / 2), 1e-8)
+                self.assertLess(abs(s ** 4 - b), 1e-6)
+
     def test_the_undamped_limit_is_another_one(self):
         # Ziegler's column: with damping it flutters above 41 / 28, however small the damping is; without it above that.
         with self.boundary(SCENES / "ziegler_column.toml", "--second", "damping", "--from", 0, "--to", 1) as found:
