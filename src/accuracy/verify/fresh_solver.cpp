@@ -1,6 +1,8 @@
 #include "accuracy/verify/fresh_solver.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cstdint>
 
 #include "continuation/point/refined_spectrum.hpp"
 #include "core/positive_or_one.hpp"
@@ -59,29 +61,28 @@ PathPlane plane_across(const LociFile& loci, std::size_t step, const Matrix& unk
 /// Starting value for the equilibrium at p on a step where the path may turn back. Newton's method at
 /// constant p could converge to another passage of the path. Here equilibria are computed on planes
 /// perpendicular to the chord between the two points of the step, and the plane on which the equilibrium has
-/// the parameter value p is found by bisection.
+/// the parameter value p is found.
 EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci, std::size_t step,
                                 double p) {
-  constexpr int most_planes = 60;
   const Matrix unknowns = multipliers_and_trim(loci);
   const PathPlane plane = plane_across(loci, step, unknowns);
-  const double p_begin = loci.p[step];
-  const double p_chord = loci.p[step + 1] - p_begin;
+  const double p_begin = loci.p[step], p_end = loci.p[step + 1];
   EvaluationCounts counts = problem.model.new_counts();
   EquilibriumGuess guess{between(loci.equilibrium, {step, 0.0}), between(unknowns, {step, 0.0}), false};
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < most_planes; ++i) {
-    const double t = 0.5 * (low + high);
-    double p_there = p_begin + t * p_chord;
+  const auto excess_of_p = [&](double t) {
+    double p_there = p_begin + t * (p_end - p_begin);
     const Equilibrium there = solve_equilibrium_on(
         plane, problem.model, parameters_at(problem, p_there), problem.traced,
         between(loci.equilibrium, {step, t}), between(unknowns, {step, t}), problem.steady, p_there, counts);
-    if (there.status != SteadyStatus::converged) break;
+    if (there.status != SteadyStatus::converged) return 0.0;  // the guess is that of the plane before
     guess = {there.x, there.lambda, false};
-    // p is monotonic on a step, because the trace stores a point at every fold.
-    ((p_there - p) * p_chord < 0.0 ? low : high) = t;
-  }
+    return p_there - p;
+  };
+  // p is monotonic on a step, because the trace stores a point at every fold.
+  std::uintmax_t planes = 60;
+  if ((p_begin - p) * (p_end - p) < 0.0)
+    boost::math::tools::toms748_solve(excess_of_p, 0.0, 1.0, p_begin - p, p_end - p,
+                                      boost::math::tools::eps_tolerance<double>(), planes);
   return guess;
 }
 
