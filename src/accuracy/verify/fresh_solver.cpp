@@ -1,8 +1,7 @@
 #include "accuracy/verify/fresh_solver.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
-#include <cstdint>
+#include <cmath>
 
 #include "continuation/point/refined_spectrum.hpp"
 #include "core/positive_or_one.hpp"
@@ -64,6 +63,8 @@ PathPlane plane_across(const LociFile& loci, std::size_t step, const Matrix& unk
 /// the parameter value p is found.
 EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci, std::size_t step,
                                 double p) {
+  constexpr int most_planes = 20;
+  constexpr double rounding = 1e-14;
   const Matrix unknowns = multipliers_and_trim(loci);
   const PathPlane plane = plane_across(loci, step, unknowns);
   const double p_begin = loci.p[step], p_end = loci.p[step + 1];
@@ -78,11 +79,21 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
     guess = {there.x, there.lambda, false};
     return p_there - p;
   };
-  // p is monotonic on a step, because the trace stores a point at every fold.
-  std::uintmax_t planes = 60;
-  if ((p_begin - p) * (p_end - p) < 0.0)
-    boost::math::tools::toms748_solve(excess_of_p, 0.0, 1.0, p_begin - p, p_end - p,
-                                      boost::math::tools::eps_tolerance<double>(), planes);
+  // p is monotonic on a step, because the trace stores a point at every fold: regula falsi, with half the
+  // value at an end that stays (Illinois).
+  double last = 0.0, other = 1.0, f_last = p_begin - p, f_other = p_end - p;
+  for (int i = 0; i < most_planes && std::abs(f_last) > rounding * std::abs(p_end - p_begin); ++i) {
+    const double t = (other * f_last - last * f_other) / (f_last - f_other);
+    const double f = excess_of_p(t);
+    if (f * f_last < 0.0) {
+      other = last;
+      f_other = f_last;
+    } else {
+      f_other *= 0.5;
+    }
+    last = t;
+    f_last = f;
+  }
   return guess;
 }
 
