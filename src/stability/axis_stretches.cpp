@@ -104,14 +104,11 @@ bool passes(const Event& event) {
   return event.kind == EventKind::flutter || event.kind == EventKind::divergence;
 }
 
-/// Whether an event lies on the imaginary axis: modes pass it there, or Re s is below its error by rounding.
-/// Files without that error have the dense output's.
+/// Whether modes pass the axis at an event, or Re s is below its error by rounding (old files: by tolerance).
 bool is_on_axis(const RecordedPath& path, const Event& event, const EigenvalueAccuracy& accuracy) {
   double doubt = path.rounding.size() > 0 ? 0.0 : accuracy.tolerance * scale_of(event.s, accuracy);
   const std::size_t node = std::min(static_cast<std::size_t>(std::max(event.node, 0)), path.p.size() - 1);
-  for (const int mode : event.modes) {
-    if (const double rounding = path.rounding_at(node, mode); rounding > doubt) doubt = rounding;
-  }
+  for (const int mode : event.modes) doubt = std::fmax(doubt, path.rounding_at(node, mode));  // not NaN
   return passes(event) || std::abs(event.s.real()) <= doubt;
 }
 
@@ -173,8 +170,7 @@ std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> 
 /// Samples the stretch: all stored points inside, samples_per_step places of every step or part of a step,
 /// and its ends where they are not on the axis.
 void add_samples(const RecordedPath& path, const Judging& judging, AxisStretch& stretch) {
-  const PathPosition from = stretch.from.at;
-  const PathPosition to = stretch.to.at;
+  const PathPosition from = stretch.from.at, to = stretch.to.at;
   const auto add = [&](std::size_t step, double t) {
     stretch.samples.push_back(sample(path, {step, t}, judging));
   };

@@ -248,7 +248,7 @@ void Scanner::report(const TraceResult& result) {
     if (options_.damping_ratio || event.kind != EventKind::collision || event.modes.size() != 2 ||
         event.s.imag() == 0.0 || !on_axis)
       continue;
-    const Path& path = paths_[static_cast<std::size_t>(event.node)];
+    const Path& path = paths_[std::min(static_cast<std::size_t>(event.node), paths_.size() - 1)];
     const Place direction = Place::Unit(line_.along);
     const Place beside =
         place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
