@@ -9,7 +9,7 @@ from unittest import mock
 import eigentrail
 import numpy as np
 from eigentrail import plot
-from eigentrail.figures import planes, separation, shapes, studies, trace_figures, with_matplotlib
+from eigentrail.figures import planes, separation, shapes, studies, style, trace_figures, with_matplotlib
 from eigentrail.figures.labels import HEIGHT, text_width
 from eigentrail.figures.picture import Area, Cells, Label, Line, Marks, Span
 
@@ -134,6 +134,10 @@ class Campbell(FigureTest):
         self.assertLessEqual({"1 lag", "flutter 12.44"}, texts)
         self.assertLessEqual(texts, {annotation.text for annotation in shown.layout.annotations})
         np.testing.assert_allclose(shown.layout.yaxis.range, axes.get_ylim())
+
+    def test_both_libraries_have_the_marks_of_all_events(self):
+        for kind, (mark, *_) in style.EVENTS.items():
+            self.assertIn(mark.removesuffix("-open"), with_matplotlib.SYMBOLS, kind)
 
     def test_a_missing_library_is_named_with_the_remedy(self):
         for module, backend in (("matplotlib", "matplotlib"), ("plotly.graph_objects", "plotly")):

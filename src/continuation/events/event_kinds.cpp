@@ -111,7 +111,7 @@ constexpr std::array<EventKindInfo, 13> kinds{{
      {"log_decrement", "where the logarithmic decrement of a pair has this value", "must be a finite number",
       is_finite}},
     {EventKind::band_edge, "band_edge", "edge of the band", "line-ew-open", false, band_remark},
-    {EventKind::cusp, "cusp", "cusp", "y-up-open", true, no_remark},
+    {EventKind::cusp, "cusp", "cusp", "pentagon-open", true, no_remark},
 }};
 
 }  // namespace

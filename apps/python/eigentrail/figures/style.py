@@ -18,7 +18,7 @@ PARTIAL_RANGE = ("#0072b2", 0.10, "no followed mode grows, others are not known"
 EVENTS = {
     "flutter": ("x", "flutter"), "divergence": ("cross", "divergence"), "collision": ("star", "collision"),
     "crossing": ("circle-open", "crossing"), "veering": ("bowtie-open", "veering"), "fold": ("triangle-left", "fold"),
-    "cusp": ("y-up-open", "cusp"),
+    "cusp": ("pentagon-open", "cusp"),
     "branch_point": ("asterisk-open", "branch point"), "damping_ratio": ("square-open", "damping ratio"),
     "resonance": ("diamond-open", "resonance"), "extremum": ("triangle-down-open", "extremum"),
     "log_decrement": ("hexagon-open", "logarithmic decrement"), "band_edge": ("line-ew-open", "edge of the band"),
