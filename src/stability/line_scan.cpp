@@ -87,7 +87,7 @@ class Scanner {
   const BoundaryOptions& options_;
   const ScanLine& line_;
   LineScan scan_;
-  std::vector<Path> paths_;  ///< at the points of the trace
+  std::vector<EquilibriumGuess> equilibria_;  ///< at the points of the trace
   std::optional<Path> left_;
   ComplexVector at_left_;
   std::optional<Sample> before_, last_;
@@ -147,7 +147,7 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.events = {.extrema = false};  // the scan finds the extrema that it needs itself
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
-  paths_.clear();
+  equilibria_.clear();
   left_.reset();
   before_.reset();
   last_.reset();
@@ -177,7 +177,7 @@ bool Scanner::take(const TracePoint& point) {
       look_at(step, std::max(t - 1.0 / samples_per_step, 0.0), step(t), t);
     }
   }
-  paths_.push_back(point.node.path);
+  equilibria_.push_back({point.node.path.x.col(0), point.node.path.lambda.col(0), true});
   left_ = point.node.path;
   at_left_ = std::move(at_right);
   return true;
@@ -248,12 +248,11 @@ void Scanner::report(const TraceResult& result) {
     if (options_.damping_ratio || event.kind != EventKind::collision || event.modes.size() != 2 ||
         event.s.imag() == 0.0 || !on_axis)
       continue;
-    const Path& path = paths_[std::min(static_cast<std::size_t>(event.node), paths_.size() - 1)];
+    const std::size_t point = std::min(static_cast<std::size_t>(event.node), equilibria_.size() - 1);
     const Place direction = Place::Unit(line_.along);
     const Place beside =
         place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
-    scan_.seeds.push_back({beside, direction, BoundaryKind::coalescence, event.s,
-                           EquilibriumGuess{path.x.col(0), path.lambda.col(0), true}});
+    scan_.seeds.push_back({beside, direction, BoundaryKind::coalescence, event.s, equilibria_[point]});
   }
 }
 
