@@ -155,6 +155,7 @@ struct Estimators {
   Matrix leave_one_out;                     ///< what is missed at the ends of the gap
   Matrix nearby;                            ///< and at the samples near it
   std::array<double, 3> share = {1, 0, 0};  ///< factor of each difference
+  Matrix rivals;                            ///< what interpolants of nearly as good degrees differ by
   double amplification = 1.0;               ///< of errors of the samples that are not smooth
   Vector weights;                           ///< largest magnitude of each basis function
 };
@@ -180,6 +181,7 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
     for (Matrix& difference : result.differences) difference.resize(1, 0);
     result.leave_one_out.resize(1, 0);
     result.nearby.resize(1, 0);
+    result.rivals.resize(1, 0);
     result.weights = Vector::Ones(1);
     return result;
   }
@@ -204,6 +206,16 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   const Matrix used = values_of(degree);
   result.weights = used.cwiseAbs().rowwise().maxCoeff();
   result.amplification = std::max(1.0, used.colwise().norm().maxCoeff());
+  result.rivals.resize(n, 0);
+  for (const int rival : piece.rivals) {
+    const RationalInterpolant interpolant(window.nodes, std::min<int>(rival, static_cast<int>(n) - 1));
+    Matrix columns(n, result.rivals.cols() + static_cast<Eigen::Index>(places_in_gap.size()));
+    columns.leftCols(result.rivals.cols()) = result.rivals;
+    for (std::size_t i = 0; i < places_in_gap.size(); ++i)
+      columns.col(result.rivals.cols() + static_cast<Eigen::Index>(i)) =
+          interpolant.values(from + places_in_gap[i] * length) - used.col(static_cast<Eigen::Index>(i));
+    result.rivals = std::move(columns);
+  }
   const auto reduced = piece.reduced.middleCols(window.offset, n);
   std::array<double, 3> norms{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -217,8 +229,10 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   result.share = {extrapolated, extrapolated * rate,
                   extrapolated * ratio(norms[0], norms[2], slowest * slowest)};
   // With equidistant nodes a missing one lets the error grow by about pi (d + 1) / 2 + 0.8: the square of
-  // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2.
-  const double factor = options.leave_one_out / (0.5 * std::numbers::pi * (degree + 1) + 0.8);
+  // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2. At an end of the range the function may be less smooth than the
+  // degree supposes.
+  const bool at_end = window.gap == 0 || window.gap + 2 == window.nodes.size();
+  const double factor = options.leave_one_out / (0.5 * std::numbers::pi * ((at_end ? 1 : degree) + 1) + 0.8);
   const auto missed_at = [&](std::size_t begin, std::size_t end) {
     begin = std::max<std::size_t>(begin, 1);
     end = std::min(end, window.nodes.size() - 1);
@@ -314,7 +328,11 @@ double InterpolationErrors::shape(double x) const {
   const auto gap = static_cast<std::size_t>(above - values_.begin()) - 1;
   const double largest =
       interpolant.error_factor(place_of_largest_error(gap, values_[gap], values_[gap + 1]));
-  return std::min(1.0, interpolant.error_factor(x) / largest);
+  const double share = std::min(1.0, interpolant.error_factor(x) / largest);
+  // Nothing beyond an end of the range tells how the error falls to zero there: it may be that of a root.
+  const bool at_end = gap == 0 ? x < 0.5 * (values_[0] + values_[1])
+                               : gap + 2 == values_.size() && x > 0.5 * (values_[gap] + values_[gap + 1]);
+  return at_end && share > 0.0 ? 1.0 : share;
 }
 
 SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const EigenTriple> triples) const {
@@ -375,6 +393,7 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
   };
   for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
   raise(estimators_here.leave_one_out, 1.0);
+  raise(estimators_here.rivals, options_.safety / (1.0 - std::min(options_.slowest, piece.gain)));
   const Matrix& nearby = estimators_here.nearby;
   const bool sees_nearby =
       nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby;

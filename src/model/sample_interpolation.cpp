@@ -11,6 +11,9 @@ namespace {
 constexpr double as_good = 1.1;
 /// Poles are used if they bring the leave-one-out error down to this share: noise can lower it a little.
 constexpr double worth_poles = 0.1;
+/// Degrees whose leave-one-out error is within this factor of what is credible of the one that is taken may
+/// be as close to the truth: where the matrices are not smooth, no degree is much better than the others.
+constexpr double about_as_good = 2.0;
 
 /// Factors for rows and columns by which the mean magnitudes of the entries of all matrices come to about
 /// one: states have units of their own.
@@ -86,6 +89,8 @@ struct Choice {
   Denominator denominator = {};
   std::vector<Denominator> without_one = {};
   double error = INFINITY;
+  std::vector<int> rivals = {};  ///< see SamplePiece
+  double gain = 0.0;             ///< see SamplePiece
 };
 
 std::vector<double> without(std::vector<double> nodes, std::size_t left_out) {
@@ -137,26 +142,46 @@ std::vector<Choice> choices(const std::vector<double>& nodes, const Matrix& redu
   return result;
 }
 
-/// The smallest degree whose error is about the least one.
-Choice best_degree(const std::vector<Choice>& all) {
+/// The error of a choice that may be small by chance: that of the degree above or below, if both are larger.
+double credible_error(const std::vector<Choice>& all, std::size_t i) {
+  double beside = INFINITY;
+  if (i > 0) beside = all[i - 1].error;
+  if (i + 1 < all.size()) beside = std::min(beside, all[i + 1].error);
+  return std::isfinite(beside) ? std::max(all[i].error, beside) : all[i].error;
+}
+
+/// The smallest degree whose error is about the least one, with its credible error.
+struct Best {
+  Choice choice;
+  double credible = INFINITY;
+};
+
+Best best_degree(const std::vector<Choice>& all) {
   double least = INFINITY;
   for (const Choice& choice : all) least = std::min(least, choice.error);
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [least](const Choice& choice) { return choice.error <= as_good * least; });
-  return found == all.end() ? Choice{} : *found;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].error <= as_good * least) return {all[i], credible_error(all, i)};
+  }
+  return {};
 }
 
 Choice best_choice(const std::vector<double>& nodes, const Matrix& reduced) {
   const int count = static_cast<int>(nodes.size());
   if (count < 4) return {std::max(0, std::min(1, count - 1))};
-  Choice best = best_degree(choices(nodes, reduced, 0));
-  best.without_one.clear();
+  const std::vector<Choice> polynomials = choices(nodes, reduced, 0);
+  Best best = best_degree(polynomials);
+  best.choice.without_one.clear();
   const bool few = nodes.size() <= most_samples_with_poles && reduced.rows() > 0;
   for (int n_poles = 1; few && n_poles <= most_poles; ++n_poles) {
-    Choice choice = best_degree(choices(nodes, reduced, n_poles));
-    if (choice.error < worth_poles * best.error) best = std::move(choice);
+    Best other = best_degree(choices(nodes, reduced, n_poles));
+    if (other.credible < worth_poles * best.credible) best = std::move(other);
   }
-  return best;
+  for (const Choice& other : polynomials) {
+    if (other.degree != best.choice.degree && other.error <= about_as_good * best.credible)
+      best.choice.rivals.push_back(other.degree);
+  }
+  if (polynomials.front().error > 0.0) best.choice.gain = best.credible / polynomials.front().error;
+  return best.choice;
 }
 
 }  // namespace
@@ -187,7 +212,8 @@ std::vector<SamplePiece> interpolate_samples(const SampledData& data, const std:
     const int highest = static_cast<int>(nodes.size()) - 1;
     Choice chosen = degree ? Choice{std::min(*degree, highest)} : best_choice(nodes, reduced);
     pieces.push_back({first, RationalInterpolant(nodes, chosen.degree, std::move(chosen.denominator)),
-                      std::move(reduced), std::move(chosen.without_one)});
+                      std::move(reduced), std::move(chosen.without_one), std::move(chosen.rivals),
+                      chosen.gain});
     first = last;
   }
   return pieces;

@@ -22,6 +22,10 @@ struct SamplePiece {
   Matrix reduced;
   /// Denominators fitted to all samples but one, a denominator per sample; empty if there are no poles.
   std::vector<Denominator> without_one = {};
+  /// Other degrees, without poles, that predict samples which are left out about as well.
+  std::vector<int> rivals = {};
+  /// The error with which it predicts samples that are left out, as a share of that of degree 1.
+  double gain = 0.0;
 
   std::size_t size() const { return interpolant.nodes().size(); }
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "eigentrail/stability/undecided_ranges.hpp"
@@ -18,7 +19,9 @@ namespace {
 
 constexpr Eigen::Index size = 6;
 
-enum class Kind { smooth, pole, branch, noise };
+/// `root` behaves like the square root of the distance from an end of the range; `kink` changes its slope
+/// between two samples, which nothing declares.
+enum class Kind { smooth, pole, branch, noise, root, kink };
 
 /// A random family of that kind on 0 <= p <= 1.
 MatrixFunction random_function(Kind kind, std::mt19937_64& engine) {
@@ -36,6 +39,12 @@ MatrixFunction random_function(Kind kind, std::mt19937_64& engine) {
       return Matrix(A[0] + 0.3 / std::sqrt(std::abs(p - place)) * A[1] + 0.3 * p * A[2]);
     };
   }
+  if (kind == Kind::root)
+    return [A](double p) { return Matrix(A[0] + std::sqrt(std::max(p, 0.0)) * A[1] + 0.3 * p * A[2]); };
+  if (kind == Kind::kink) {
+    const double corner = 0.2 + 0.6 * uniform(engine);
+    return [A, corner](double p) { return Matrix(A[0] + std::abs(p - corner) * A[1] + 0.3 * p * A[2]); };
+  }
   const double rate = 4.0 + 4.0 * uniform(engine), phase = 6.0 * uniform(engine);
   return [A, rate, phase](double p) {
     return Matrix(A[0] + 0.5 * std::sin(rate * p + phase) * A[1] + 0.5 * std::exp(p) * A[2] +
@@ -48,10 +57,11 @@ std::vector<Complex> spectrum_of(const Matrix& A) {
   return {s.begin(), s.end()};
 }
 
-/// What a study found: the largest ratio of the true error to the stated one, and the median of the inverse.
+/// What a study found: ratios of the true error to the stated one.
 struct Ratios {
-  double worst = 0.0;
-  double median = 0.0;
+  double worst = 0.0;   ///< the largest one
+  double within = 0.0;  ///< share of the places at which it is at most 1
+  double median = 0.0;  ///< median of the inverse
 };
 
 /// Errors of the interpolated eigenvalues at random places, beside a tolerance as a trace would have.
@@ -83,10 +93,12 @@ Ratios study(Kind kind, int samples, int families, int places) {
         const double tolerance = 1e-13 * std::abs(s[k]);
         const double bound = stated(k, 0) + stated(k, 1) + tolerance;
         ratios.worst = std::max(ratios.worst, error / bound);
+        ratios.within += error <= bound ? 1.0 : 0.0;
         inverse.push_back(bound / std::max(error, tolerance));
       }
     }
   }
+  ratios.within /= static_cast<double>(inverse.size());
   std::nth_element(inverse.begin(), inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2),
                    inverse.end());
   ratios.median = inverse[inverse.size() / 2];
@@ -95,15 +107,28 @@ Ratios study(Kind kind, int samples, int families, int places) {
 
 class StatedErrors : public testing::TestWithParam<std::pair<Kind, int>> {};
 
-/// A true error of twice the stated one is a fault; the stated one is at most 30 times the true one at the
-/// median.
+/// Families of each kind; EIGENTRAIL_FAMILIES asks for another number.
+int number_of_families() {
+  const char* asked = std::getenv("EIGENTRAIL_FAMILIES");
+  return asked != nullptr ? std::atoi(asked) : 50;
+}
+
+/// Where the matrices are not smooth, few samples do not tell how far they are off between them.
+bool is_smooth(Kind kind) {
+  return kind != Kind::root && kind != Kind::kink;
+}
+
+/// The true error is within the stated one, which is at most 30 times as large at the median.
 TEST_P(StatedErrors, HoldAtThousandRandomPlacesAndAreNotMuchLarger) {
   const auto [kind, samples] = GetParam();
-  const Ratios found = study(kind, samples, 50, 20);
+  const Ratios found = study(kind, samples, number_of_families(), 20);
   RecordProperty("worst", std::to_string(found.worst));
   RecordProperty("median", std::to_string(found.median));
-  std::printf("worst true/stated %.2f, median stated/true %.1f\n", found.worst, found.median);
-  EXPECT_LT(found.worst, 2.0);
+  RecordProperty("within", std::to_string(found.within));
+  std::printf("worst true/stated %.2f, within %.4f, median stated/true %.1f\n", found.worst, found.within,
+              found.median);
+  EXPECT_LT(found.worst, is_smooth(kind) ? 2.0 : 15.0);
+  EXPECT_GE(found.within, is_smooth(kind) ? 0.999 : 0.98);
   EXPECT_LT(found.median, 30.0);
 }
 
@@ -112,18 +137,21 @@ std::string name_of(const testing::TestParamInfo<std::pair<Kind, int>>& info) {
   const char* name = kind == Kind::smooth   ? "Smooth"
                      : kind == Kind::pole   ? "Pole"
                      : kind == Kind::branch ? "Branch"
-                                            : "Noise";
+                     : kind == Kind::noise  ? "Noise"
+                     : kind == Kind::root   ? "Root"
+                                            : "Kink";
   return name + std::to_string(samples);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, StatedErrors,
-                         testing::Values(std::pair{Kind::smooth, 8}, std::pair{Kind::smooth, 12},
-                                         std::pair{Kind::smooth, 20}, std::pair{Kind::pole, 8},
-                                         std::pair{Kind::pole, 12}, std::pair{Kind::pole, 20},
-                                         std::pair{Kind::branch, 8}, std::pair{Kind::branch, 12},
-                                         std::pair{Kind::branch, 20}, std::pair{Kind::noise, 8},
-                                         std::pair{Kind::noise, 12}, std::pair{Kind::noise, 20}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Families, StatedErrors,
+    testing::Values(std::pair{Kind::smooth, 8}, std::pair{Kind::smooth, 12}, std::pair{Kind::smooth, 20},
+                    std::pair{Kind::pole, 8}, std::pair{Kind::pole, 12}, std::pair{Kind::pole, 20},
+                    std::pair{Kind::branch, 8}, std::pair{Kind::branch, 12}, std::pair{Kind::branch, 20},
+                    std::pair{Kind::noise, 8}, std::pair{Kind::noise, 12}, std::pair{Kind::noise, 20},
+                    std::pair{Kind::root, 8}, std::pair{Kind::root, 12}, std::pair{Kind::root, 20},
+                    std::pair{Kind::kink, 8}, std::pair{Kind::kink, 12}, std::pair{Kind::kink, 20}),
+    name_of);
 
 /// x rounded to `digits` significant digits.
 double rounded_to(double x, int digits) {

@@ -53,7 +53,7 @@ struct SampleBounds {
 /// (docs/developers/accuracy.md, Errors of samples).
 struct SampleErrorOptions {
   /// Interpolants of one degree more and less differ by about the error; it is multiplied by this.
-  double safety = 4.0;
+  double safety = 3.4;
   /// Largest ratio of the errors of successive degrees with which that difference is extrapolated.
   double slowest = .8;
   /// Factor of the leave-one-out errors of the neighbouring samples, whose gaps are twice as wide.
