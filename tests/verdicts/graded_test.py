@@ -51,11 +51,11 @@ def grows(C, K):
 
 
 class GradedFamilies(VerdictTest):
-    families = 4
-    first = 0
+    # Guard modes that meet the real axis in a block of five (5015, 5035); flutter before a collision (5295).
+    seeds = (0, 1, 2, 3, 5015, 5035, 5295)
 
     def test_ranges_are_those_of_the_whole_model(self):
-        for seed in range(self.first, self.first + self.families):
+        for seed in self.seeds:
             with self.subTest(seed=seed):
                 self.check(*family(seed))
 
@@ -74,6 +74,6 @@ class GradedFamilies(VerdictTest):
 
 if __name__ == "__main__":
     if len(sys.argv) > 1:
-        GradedFamilies.families = int(sys.argv[1])
-        GradedFamilies.first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+        first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+        GradedFamilies.seeds = range(first, first + int(sys.argv[1]))
     unittest.main(argv=sys.argv[:1])

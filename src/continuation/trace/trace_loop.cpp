@@ -162,11 +162,10 @@ bool notices_rounding(const PathProblem& problem, const TraceOptions& options, c
   return known_rounding(state.frame, track) >= seen;  // less of guard modes
 }
 
-/// Modes that have to be followed from a point on. `meets`: eigenvalues coincide there.
+/// Modes that have to be followed from a point on.
 EnteringModes needed_at(const PathProblem& problem, const TraceOptions& options, const PathNode& node,
-                        bool meets, TraceState& state) {
+                        TraceState& state) {
   if (!state.settings.leaves_out) return {{}, 0};
-  if (meets) return {};
   return entering_modes(problem, options.modes, node, state.result.counts);
 }
 
@@ -244,7 +243,7 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
-  EnteringModes needed = needed_at(problem_, options_, node, !meetings.empty(), state_);
+  EnteringModes needed = needed_at(problem_, options_, node, state_);
   begin_here(problem_, std::move(needed.tracks), node, state_.numbers);
   number_growing_guards(problem_, node, node, state_.numbers);
   for (Track& track : node.tracks) track.arriving = track.modes;
@@ -425,7 +424,7 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
 bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
-  EnteringModes needed = needed_at(problem_, options_, step.right, !landed.meetings.empty(), state_);
+  EnteringModes needed = needed_at(problem_, options_, step.right, state_);
   const int guards = number_growing_guards(problem_, step.right, state_.origin.node, state_.numbers);
   if (guards + follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node,
                            state_.numbers, result.counts) >

@@ -77,9 +77,6 @@ EnteringModes entering_modes(const PathProblem& problem, const ModeChoice& choic
                              RunCounts& counts) {
   const bool is_whole = problem.model.projection() == nullptr;
   if (!is_whole && !choice.may_grow()) return {};
-  const bool meeting = std::any_of(node.tracks.begin(), node.tracks.end(),
-                                   [](const Track& track) { return track.departure.has_value(); });
-  if (meeting) return {};
   const StageTimer timer(counts.matching_seconds);
   const bool may_grow = is_whole && !is_stable_by_energy(node.pencil, problem.structure);
   if (!choice.may_grow() && !may_grow) return {{}, 0};

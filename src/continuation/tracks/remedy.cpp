@@ -123,6 +123,8 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
     remedy.tried_to_join = true;
     if (join_unproven(problem, rules, node, track, counts)) ++remedy.changes.joined;
   }
+  // What was kept together cannot be followed together: the next point may take it apart.
+  if (!remedy.helps()) node.tracks[track].inseparable = 0.0;
   return remedy;
 }
 
