@@ -9,10 +9,10 @@ import numpy as np
 import pandas
 import xarray
 
-from . import boundary, files, ross, tables
+from . import files, ross, tables
 from .errors import SceneError
 from .figures import Figures
-from .selection import Selection
+from .selection import Selection, curve
 
 
 @xarray.register_dataset_accessor("eigentrail")
@@ -65,7 +65,7 @@ class Eigentrail(Figures):
         """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
         return tables.stable_ranges(self._of("loci"))
 
-    def save(self, path: Union[str, "os.PathLike[str]"], overwrite: bool = False) -> None:
+    def save(self, path: Union[str, os.PathLike[str]], overwrite: bool = False) -> None:
         """Writes the file that the program would write for this result. A file that exists is kept (FileExistsError), unless
         `overwrite`."""
         files.save(self._data, path, overwrite)
@@ -83,7 +83,7 @@ class Eigentrail(Figures):
         """One curve of a boundary file (`number` from 0) at `points` places, from its dense output.
 
         Returns a Dataset along `point`."""
-        return boundary.curve(self._of("boundary"), number, points)
+        return curve(self._of("boundary"), number, points)
 
     @cached_property
     def _selection(self) -> Selection:

@@ -10,15 +10,15 @@ from numbers import Real
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-import xarray
 
 from . import toml
 from .engine import engine
 from .errors import SceneError
 from .families import Family, Samples
 from .imports import Imported
+from .later import xarray
 
-Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Family, Samples, Imported]
+Source = Union[str, os.PathLike[str], Mapping[str, Any], Family, Samples, Imported]
 
 
 class Given(NamedTuple):

@@ -1,16 +1,17 @@
 """Derivatives of results with respect to the parameters of a scene."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
-import pandas
-import xarray
 
 from .checked import checked
 from .engine import engine
 from .errors import SceneError
 from .files import ATTACHED
 from .given import Attached, option_text
+from .later import pandas, xarray
 
 QUANTITIES = ("flutter", "damping_ratio", "frequency", "eigenvalue")
 SAMPLES_PER_STEP = 16  # between two of them the least damping ratio is found by refinement

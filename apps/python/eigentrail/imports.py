@@ -12,7 +12,7 @@ from .engine import engine
 from .errors import SceneError
 from .files import write
 
-Files = Union[str, "os.PathLike[str]", Sequence[Union[str, "os.PathLike[str]"]]]
+Files = Union[str, os.PathLike[str], Sequence[Union[str, os.PathLike[str]]]]
 
 
 class Imported:
@@ -33,7 +33,7 @@ class Imported:
     def scene(self) -> Any:
         return engine().parse_scene(self.text, "Imported", {"model.h5": self.image}, generated=True)
 
-    def save(self, folder: Union[str, "os.PathLike[str]"], name: str = "model", overwrite: bool = False) -> str:
+    def save(self, folder: Union[str, os.PathLike[str]], name: str = "model", overwrite: bool = False) -> str:
         """Writes `name`.toml and `name`.h5 to the folder; returns the path of the scene. Files that exist are kept
         (FileExistsError), unless `overwrite`."""
         os.makedirs(folder, exist_ok=True)

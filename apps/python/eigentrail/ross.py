@@ -1,13 +1,15 @@
 """Rotors of ROSS (Rotordynamic Open Source Software): their matrices as a family."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any, Optional, Union
 
 import numpy as np
-import xarray
 
 from .errors import SceneError
 from .families import Family, Samples
+from .later import xarray
 
 FREEDOMS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", "theta")}
 AGREE = 1e-9  # largest difference, relative to the largest entry, of the state matrix here and that of ROSS

@@ -1,19 +1,20 @@
 """The computations: traces, boundaries, maps, accuracy studies, spectra."""
 
+from __future__ import annotations
+
 import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-import pandas
-import xarray
 
 from . import files
 from .checked import checked
 from .engine import engine
 from .errors import SceneError, TraceError
 from .given import Attached, Given, Source, give, number, option_text, within
+from .later import pandas, xarray
 from .progress import Bar, Progress
 
 Options = list[tuple[str, str]]
@@ -208,7 +209,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
 
 @checked
 def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapping[str, Any]] = None,
-            options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> "Explanation":
+            options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> Explanation:
     """What a scene simulates and how it will be solved: effects, structure, sizes, solvers; a text.
 
     `sensitivity` ranks the effects by their influence on each mode where the trace begins.

@@ -1,5 +1,7 @@
 """Traces at many values of other parameters, on all cores."""
 
+from __future__ import annotations
+
 import itertools
 import os
 import warnings
@@ -8,12 +10,12 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Optional
 
 import numpy as np
-import xarray
 
 from .checked import checked
 from .engine import engine
 from .errors import SceneError, TraceError
 from .given import Source, within
+from .later import xarray
 from .progress import Bar, Progress
 from .files import read
 from .runs import Run, trace_file

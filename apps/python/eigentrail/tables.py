@@ -1,8 +1,11 @@
 """Events and stable ranges of a loci file as pandas tables."""
 
+from __future__ import annotations
+
 from typing import Any
 
-import pandas
+from .later import pandas
+
 
 
 def events(loci: Any) -> pandas.DataFrame:

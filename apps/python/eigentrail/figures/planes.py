@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..boundary import curve as smooth_curve
 from ..errors import SceneError
+from ..selection import curve as smooth_curve
 from .curves import parts
 from .labels import Room
 from .loci import BOTTOM, LEFT, LEGEND_ROW, NAME, RIGHT, TITLE, TOP, legend_grid
