@@ -113,6 +113,4 @@ def _add_curves(panel, data, names):
                                  [str(kind) for kind in data.corner_kind.values]))
         room = Room(panel)
         for (x, y), kind in zip(corners, data.corner_kind.values):
-            label = room.beside(x, y, str(kind).replace("takens_bogdanov", "Takens\u2013Bogdanov"), NAME, 5)
-            if label:
-                panel.items.append(label)
+            room.beside(x, y, str(kind).replace("takens_bogdanov", "Takens\u2013Bogdanov"), NAME, 5)

@@ -167,9 +167,7 @@ def _stick_figure(figure, shape, title, view, size):
     if len(figure.names) <= MOST_NAMED:
         room = Room(panel)
         for name, place in zip(figure.names, figure.middles(shape.real) @ flat):
-            label = room.beside(*place, name, 8.0, 5, BLUE)
-            if label:
-                panel.items.append(label)
+            room.beside(*place, name, 8.0, 5, BLUE)
     picture.legend = [Line([], [], FAINT, 2.5, legend="equilibrium"), Line([], [], BLUE, 2.5, legend="displaced"),
                       Line([], [], BLUE, 0.7, legend="orbits")]
     return picture
@@ -213,12 +211,9 @@ def _add_parts(panel, figure, positions, flat, ghost):
 
 def _add_triad(panel, flat):
     """The axes of the frame in the lower left corner."""
-    width, height = panel.points
     for k, name in enumerate("xyz"):
         tip = 22 * flat[k]
-        at = [(24 + part[0], 24 + part[1]) for part in ((0.0, 0.0), tip, 1.35 * tip)]
-        x = [panel.x.value(place[0] / width) for place in at]
-        y = [panel.y.value(place[1] / height) for place in at]
+        x, y = panel.at(*(24 + np.outer(tip, (0.0, 1.0, 1.35))))
         if np.hypot(*tip) > 4:
             panel.items.append(Line(x[:2], y[:2], GREY, 1.0, name=f"direction {name}"))
             panel.items.append(Label(x[2], y[2], name, GREY, 8.0, "center"))
