@@ -12,7 +12,7 @@ import xarray
 from . import files, ross, tables
 from .errors import SceneError
 from .figures import Figures
-from .selection import Selection, curve
+from .selection import Selection, curve, mode_number
 
 
 @xarray.register_dataset_accessor("eigentrail")
@@ -36,7 +36,7 @@ class Eigentrail(Figures):
         damping_ratio and certified along parameter and mode, for a sampled family also of interpolation_error and digits_error (1/s), the bounds of the errors that come from the samples. The values may
         be a number (then without dimension), a list, an array, or a DataArray, whose dimension is kept. If the path
         turns back, there is also a dimension `passage`: the first, second, ... place of the path with the value; NaN
-        where there are fewer. `mode` is a label ("mode 1") or a name ("blade lag"), or a list of these.
+        where there are fewer. `mode` is a number from 1, a label ("mode 1") or a name ("blade lag"), or a list of these.
         """
         return self._modes(self._selection.at(self._wanted(at)), mode)
 
@@ -103,13 +103,8 @@ class Eigentrail(Figures):
         return at[self.parameter]
 
     def _modes(self, data: xarray.Dataset, wanted: Any) -> xarray.Dataset:
-        """`data` of the modes with these labels or names; of all modes for None."""
+        """`data` of the modes with these numbers, labels or names; of all modes for None."""
         if wanted is None:
             return data
-        labels = [key for key in ("mode", "mode_name") if key in data.coords]
-        number = {name: i for key in labels for i, name in enumerate(data[key].values) if name}
-        several = not isinstance(wanted, str)
-        unknown = [name for name in (wanted if several else [wanted]) if name not in number]
-        if unknown:
-            raise SceneError(f"mode {unknown[0]!r}: expected one of {', '.join(map(repr, number))}")
-        return data.isel(mode=[number[name] for name in wanted] if several else number[wanted])
+        one = isinstance(wanted, (str, int, np.integer))
+        return data.isel(mode=mode_number(data, wanted) if one else [mode_number(data, name) for name in wanted])

@@ -12,6 +12,7 @@ from .errors import SceneError
 from .files import ATTACHED
 from .given import Attached, option_text
 from .later import pandas, xarray
+from .selection import mode_number
 
 QUANTITIES = ("flutter", "damping_ratio", "frequency", "eigenvalue")
 SAMPLES_PER_STEP = 16  # between two of them the least damping ratio is found by refinement
@@ -66,9 +67,7 @@ def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = Non
     value = float(loci.eigentrail._wanted(at))
     if mode is None:
         raise SceneError(f"{quantity}: expected the mode, by its label or name: mode=\"mode 1\"")
-    labels = [str(label) for label in loci.mode.values]
-    chosen = loci.eigentrail.sel(mode=mode, **at)
-    return _of_mode(loci, quantity, value, labels.index(str(chosen.mode.values)))
+    return _of_mode(loci, quantity, value, mode_number(loci, mode))
 
 
 @checked
@@ -87,14 +86,12 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     path = np.unique(loci[parameter].values)
     share = np.linspace(0.0, 1.0, SAMPLES_PER_STEP, endpoint=False)
     places = np.append((path[:-1, np.newaxis] + np.diff(path)[:, np.newaxis] * share).ravel(), path[-1])
-    labels = [str(label) for label in loci.mode.values]
-    wanted = slice(None) if mode is None else [labels.index(_label(loci, mode))]
+    chosen = np.arange(loci.sizes["mode"]) if mode is None else np.array([mode_number(loci, mode)])
 
     def ratios(at: Any) -> Any:
         """Damping ratios at places: places x modes of all passages of the path, and the numbers of the modes."""
-        ratio = loci.eigentrail.sel(**{parameter: at}).damping_ratio[..., wanted]
-        modes = np.resize([labels.index(str(label)) for label in ratio.mode.values], ratio.size // len(at))
-        return ratio.values.reshape(len(at), -1), modes
+        ratio = loci.eigentrail.sel(**{parameter: at}).damping_ratio[..., chosen]
+        return ratio.values.reshape(len(at), -1), np.resize(chosen, ratio.size // len(at))
 
     def refined(row: int, column: int) -> Least:
         at = places
@@ -118,11 +115,6 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     return min((refined(int(row), int(column)) for row, column in np.argwhere(may_be)), key=lambda least: least.value)
 
 
-def _label(loci: xarray.Dataset, mode: Any) -> str:
-    chosen = loci.eigentrail._modes(loci[["mode"]], mode)
-    return str(chosen.mode.values)
-
-
 def _of_flutter(loci: xarray.Dataset, event: int) -> pandas.Series:
     points = np.flatnonzero(loci.event_kind.values == "flutter")
     if len(points) <= event:
@@ -137,7 +129,7 @@ def _of_flutter(loci: xarray.Dataset, event: int) -> pandas.Series:
 def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pandas.Series:
     parameter = loci.attrs["parameter"]
     label = str(loci.mode.values[mode])
-    s = complex(np.ravel(loci.eigentrail.sel(**{parameter: value}, mode=label).eigenvalue.values)[0])
+    s = complex(np.ravel(loci.eigentrail.sel(**{parameter: value}).eigenvalue.values[..., mode])[0])
     node = int(np.abs(loci[parameter].values - value).argmin())
     scene, options = _scene_of(loci)
     found = engine().sensitivities(scene, options, value, loci.equilibrium.values[node])

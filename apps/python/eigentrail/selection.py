@@ -38,6 +38,27 @@ def columns_of(s, certified):
                 "damping_ratio": -s.real / np.abs(s), "certified": certified}
 
 
+def mode_names(data):
+    """Labels of modes ("mode 1"), and their names: the label where a mode has none."""
+    labels = [str(label) for label in data.mode.values]
+    names = data.mode_name.values if "mode_name" in data.coords else labels
+    return labels, [str(name or label) for name, label in zip(names, labels)]
+
+
+def mode_number(data, mode):
+    """From 0: of a mode that is given by its number from 1, its label or its name."""
+    labels, names = mode_names(data)
+    number = {**{name: i for i, name in enumerate(names)}, **{label: i for i, label in enumerate(labels)}}
+    if isinstance(mode, (int, np.integer)):
+        if not 1 <= mode <= len(labels):
+            raise SceneError(f"mode={mode}: the modes have the numbers 1 to {len(labels)}")
+        return int(mode) - 1
+    if mode not in number:
+        raise SceneError(f"mode {mode!r}: expected one of {', '.join(map(repr, dict.fromkeys(labels + names)))}, or a number from "
+                         f"1 to {len(labels)}")
+    return number[mode]
+
+
 class Selection:
     """Evaluates the dense output of a loci file at parameter values."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .later import pandas
+from .selection import mode_names
 
 
 
@@ -44,7 +45,5 @@ def stable_ranges(loci: Any) -> pandas.DataFrame:
 
 def _mode_names(loci: Any, text: str) -> str:
     """Names of modes from their numbers: 'flap; lag' from '1;3'. Modes without a name have their label, 'mode 1'."""
-    labels = loci.mode.values
-    names = loci.mode_name.values if "mode_name" in loci.coords else labels
-    numbers = [int(number) - 1 for number in text.split(";") if number]
-    return "; ".join(names[i] or labels[i] for i in numbers)
+    names = mode_names(loci)[1]
+    return "; ".join(names[int(number) - 1] for number in text.split(";") if number)

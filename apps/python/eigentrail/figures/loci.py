@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..errors import SceneError
+from ..selection import mode_names
 from .curves import DASHED, DOTTED, SOLID, Curves, damping_percent, oscillates, parts, runs, with_ends, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
@@ -41,6 +42,7 @@ class LociFigure:
             raise SceneError(f"unit={unit!r}: expected a unit of frequency: {', '.join(ANGULAR)}")
         self.factor = ANGULAR[self.unit]
         self.curves = Curves(loci)
+        self.labels, self.names = mode_names(loci)
         self.s, self.p = self.curves.s, self.curves.parameter
         self.modes = list(np.flatnonzero(np.isfinite(self.s).any(axis=0)))
         self.range = (float(self.p.min()), float(self.p.max()))
@@ -51,15 +53,10 @@ class LociFigure:
 
     # Modes.
 
-    def name(self, mode):
-        """Name of a mode, or "mode 3"."""
-        names = self.loci.mode_name.values if "mode_name" in self.loci.coords else self.loci.mode.values
-        return str(names[mode] or self.loci.mode.values[mode])
-
     def short_name(self, mode):
         """The name with the number, cut where it is long."""
-        name = self.name(mode)
-        text = name if name == str(self.loci.mode.values[mode]) else f"{mode + 1} {name}"
+        name = self.names[mode]
+        text = name if name == self.labels[mode] else f"{mode + 1} {name}"
         return text if len(text) <= LONGEST_NAME else text[:LONGEST_NAME - 1] + "\u2026"
 
     def add_modes(self, panel, modes, x, y):
@@ -153,7 +150,7 @@ class LociFigure:
 
     def _listed(self, modes, rows=44):
         """Modes in columns of the list of names; empty where modes have no names of their own."""
-        named = [mode for mode in modes if self.name(mode) != str(self.loci.mode.values[mode])]
+        named = [mode for mode in modes if self.names[mode] != self.labels[mode]]
         if not named or len(modes) > MOST_NAMES_LISTED:
             return []
         return [modes[i:i + rows] for i in range(0, len(modes), rows)]

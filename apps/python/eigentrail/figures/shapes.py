@@ -5,6 +5,7 @@ from itertools import cycle
 import numpy as np
 
 from ..errors import SceneError
+from ..selection import mode_names, mode_number
 from .curves import damping_percent, without_rounding
 from .drawing import geometry
 from .labels import Room, text_width
@@ -46,27 +47,12 @@ def shape_picture(loci, value, mode, view="3D", size=None):
     return _stick_figure(figure, shape, title, view, size)
 
 
-def mode_number(loci, mode):
-    """The column of a mode that is given by its number from 1, its label or its name."""
-    names = [str(name) for name in loci.mode.values]
-    if isinstance(mode, (int, np.integer)):
-        if not 1 <= mode <= len(names):
-            raise SceneError(f"mode={mode}: the modes have the numbers 1 to {len(names)}")
-        return int(mode) - 1
-    named = [str(name) for name in loci.mode_name.values] if "mode_name" in loci.coords else []
-    for list_of_names in (names, named):
-        if mode in list_of_names:
-            return list_of_names.index(mode)
-    raise SceneError(f"mode={mode!r}: expected a number from 1 to {len(names)}, or one of "
-                     f"{', '.join(map(repr, [name for name in names + named if name]))}")
-
-
 def _title(loci, node, column):
     parameter = loci[loci.attrs["parameter"]]
     unit = parameter.attrs.get("units", "1")
     s = without_rounding(np.complex128(loci.eigenvalue.values[node, column]))
-    name = str(loci.mode_name.values[column]) if "mode_name" in loci.coords else ""
-    where = f"mode {column + 1}{' ' + name if name else ''} at {parameter.name} = {number(float(parameter[node]), 6)}"
+    label, name = (names[column] for names in mode_names(loci))
+    where = f"{label}{'' if name == label else ' ' + name} at {parameter.name} = {number(float(parameter[node]), 6)}"
     where += "" if unit == "1" else f" {unit}"
     if not np.isfinite(s):
         return where
@@ -79,24 +65,22 @@ def _title(loci, node, column):
 class _Carriers:
     """Points and bodies of a scene at a stored point, with the places on them and the links between these."""
 
-    def __init__(self, names, first, body, places, lines, equilibrium):
-        self.names, self.first, self.body = names, first, body
-        self.places, self.lines, self._equilibrium = places, lines, equilibrium
+    def __init__(self, carriers, places, lines, equilibrium):
+        self.names, self.first, self.body = ([one[key] for one in carriers] for key in ("name", "first", "body"))
+        self.places = [(place["carrier"], np.array(place["at"][0], float)) for place in places]
+        self.lines = [(line["kind"], line["from"], line["to"]) for line in lines]
+        self._equilibrium = equilibrium
         rest = self.at(np.zeros(len(equilibrium)))
         self.rest = np.array([*rest[0], *rest[2]])
-        self.axis = _common_axis(rest[0]) if len(names) >= ON_AN_AXIS else None
+        self.axis = _common_axis(rest[0]) if len(carriers) >= ON_AN_AXIS else None
 
     @classmethod
     def of(cls, loci, node):
         """None if the coordinates are not those of points and bodies."""
-        found = geometry(loci, node)
-        carriers = found["carriers"] if found else _from_names([str(name) for name in loci.coordinate.values])
-        if not carriers:
+        found = geometry(loci, node) or {"carriers": _from_names(list(map(str, loci.coordinate.values))), "places": [], "lines": []}
+        if not found["carriers"]:
             return None
-        places = [(place["carrier"], np.array(place["at"][0], float)) for place in found["places"]] if found else []
-        lines = [(line["kind"], line["from"], line["to"]) for line in found["lines"]] if found else []
-        return cls([one["name"] for one in carriers], [one["first"] for one in carriers], [one["body"] for one in carriers],
-                   places, lines, loci.equilibrium.values[node])
+        return cls(found["carriers"], found["places"], found["lines"], loci.equilibrium.values[node])
 
     def at(self, displacement):
         """Origins (k, 3), axes (k, 3, 3; rows) and places (j, 3) with a displacement of the coordinates added."""

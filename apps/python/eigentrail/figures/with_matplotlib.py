@@ -101,23 +101,26 @@ def _set_axis(axes, axis, which):
         axes.tick_params(**{f"label{'bottom' if which == 'x' else 'left'}": False})
 
 
-def _mark(symbol, colour, size):
-    """Keywords of a line that shows a mark."""
-    base = symbol.removesuffix("-open")
-    open_ = symbol != base or base.endswith("-dot")
+def _mark(item):
+    """Keywords of a line that shows marks."""
+    base, colour = item.symbol.removesuffix("-open"), item.colour
+    open_ = item.symbol != base or base.endswith("-dot")
     width = 1.3 if open_ or base in STROKES else 0.5
-    return {"marker": SYMBOLS[base], "markersize": size * LARGER.get(base, 1.0), "markeredgewidth": width,
+    return {"marker": SYMBOLS[base], "markersize": item.size * LARGER.get(base, 1.0), "markeredgewidth": width,
             "markerfacecolor": "none" if open_ else colour, "markeredgecolor": colour if open_ or base in STROKES else "white"}
 
 
+def _line(item):
+    """Keywords of a line."""
+    return {"color": item.colour, "linewidth": item.width, "linestyle": DASHES[item.dash]}
+
+
 def _draw_line(axes, item):
-    axes.plot(item.x, item.y, color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash], clip_on=item.clip,
-              solid_capstyle="round", label=item.name or None)
+    axes.plot(item.x, item.y, clip_on=item.clip, solid_capstyle="round", label=item.name or None, **_line(item))
 
 
 def _draw_marks(axes, item):
-    axes.plot(item.x, item.y, linestyle="none", zorder=3, label=item.name or None, clip_on=False,
-              **_mark(item.symbol, item.colour, item.size))
+    axes.plot(item.x, item.y, linestyle="none", zorder=3, label=item.name or None, clip_on=False, **_mark(item))
 
 
 def _draw_area(axes, item):
@@ -170,11 +173,10 @@ def _draw_legend(figure, picture, left, top):
     handles = []
     for item in picture.legend:
         if isinstance(item, Marks):
-            line = item.legend_line
-            handle = Line2D([], [], linestyle=DASHES[line] if line else "none", color=item.colour,
-                            **_mark(item.symbol, item.colour, item.size))
+            style = DASHES[item.legend_line] if item.legend_line else "none"
+            handle = Line2D([], [], linestyle=style, color=item.colour, **_mark(item))
         elif isinstance(item, Line):
-            handle = Line2D([], [], color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash])
+            handle = Line2D([], [], **_line(item))
         else:
             handle = Patch(facecolor=item.colour, alpha=item.opacity, linewidth=0)
         handle.set_label(item.legend)
