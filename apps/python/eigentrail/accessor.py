@@ -10,7 +10,6 @@ import pandas
 import xarray
 
 from . import files, ross, tables
-from .errors import SceneError
 from .figures import Figures
 from .selection import Selection, curve, mode_number
 
@@ -20,14 +19,6 @@ class Eigentrail(Figures):
     """For a loci file: `sel`, `nearest`, `events`, `stable_ranges`, `parameter`; for a boundary file: `curve`.
 
     Figures: `campbell`, `root_locus`, `damping`, `mode_shape`, `plane`, `work_precision`; see `figures.Figures`."""
-
-    def __init__(self, data: xarray.Dataset):
-        self._data = data
-
-    @property
-    def parameter(self) -> str:
-        """Name of the traced parameter."""
-        return self._of("loci").attrs["parameter"]
 
     def sel(self, mode: Any = None, **at: Any) -> xarray.Dataset:
         """Eigenvalues at any values of the traced parameter, from the dense output: `sel(omega=[12.5, 40])`.
@@ -88,19 +79,6 @@ class Eigentrail(Figures):
     @cached_property
     def _selection(self) -> Selection:
         return Selection(self._of("loci"))
-
-    def _of(self, kind: str) -> xarray.Dataset:
-        found = self._data.attrs.get("format")
-        if found != f"eigentrail-{kind}":
-            raise SceneError(f"only {kind} files have this; the Dataset is of the format {found!r}")
-        return self._data
-
-    def _wanted(self, at: Mapping[str, Any]) -> Any:
-        """The value of the only keyword, which must be the name of the parameter."""
-        if list(at) != [self.parameter]:
-            found = ", ".join(f"{name}=..." for name in at) or "nothing"
-            raise TypeError(f"expected the traced parameter, {self.parameter}=..., found {found}")
-        return at[self.parameter]
 
     def _modes(self, data: xarray.Dataset, wanted: Any) -> xarray.Dataset:
         """`data` of the modes with these numbers, labels or names; of all modes for None."""

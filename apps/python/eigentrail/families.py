@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import files, matrices, toml
-from .engine import suggesting
+from .checked import checked
 from .errors import SceneError
 
 Matrices = Any  # one matrix, a list of them by powers of the parameter, or a dict by powers and names
@@ -21,7 +21,7 @@ class InMemory:
     function: Optional[Callable[[float], Mapping[str, Any]]] = None
     parameters: Mapping[str, Any] = {}
 
-    def __init__(self, labelled: Mapping[str, Any], parameter: Optional[str], unit: str, names: Optional[Sequence[str]],
+    def __init__(self, labelled: Mapping[str, Any], parameter: Optional[str], unit: str, names: Optional[Iterable[Any]],
                  title: str):
         self.parameter, self.unit, self.title, self.names = parameter, unit, title, _texts(names)
         _require_names(self.names, labelled)
@@ -114,10 +114,10 @@ class Family(InMemory):
     array([1., 2.])
     """
 
-    @suggesting
+    @checked
     def __init__(self, function: Optional[Callable[[float], Mapping[str, Any]]] = None, *, M: Matrices = None,
                  C: Matrices = None, K: Matrices = None, E: Matrices = None, A: Matrices = None,
-                 parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
+                 parameter: Optional[str] = None, unit: str = "", names: Optional[Iterable[Any]] = None,
                  factors: Optional[Mapping[str, Any]] = None, parameters: Optional[Mapping[str, Any]] = None,
                  title: str = "", function_tolerance: Optional[float] = None, max_calls: int = 1000,
                  resolution: float = 0.01, breaks: Sequence[float] = ()):
@@ -192,10 +192,10 @@ class Samples(InMemory):
     (array([1., 2.]), True)
     """
 
-    @suggesting
+    @checked
     def __init__(self, p: Any, *, M: Any = None, C: Any = None, K: Any = None, E: Any = None, A: Any = None,
-                 parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
-                 units: Optional[Sequence[str]] = None, digits: Optional[int] = None, kinks: Sequence[float] = (),
+                 parameter: Optional[str] = None, unit: str = "", names: Optional[Iterable[Any]] = None,
+                 units: Optional[Iterable[Any]] = None, digits: Optional[int] = None, kinks: Sequence[float] = (),
                  title: str = ""):
         self.p = np.atleast_1d(matrices.exact("p", p))
         given = _given(dict(M=M, C=C, K=K, E=E, A=A))

@@ -57,7 +57,7 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
     function, attached = None, Attached()
     if isinstance(source, Imported):
         attached = Attached({"model.h5": source.image})
-        scene = source.scene()
+        scene = attached.scene(source.text, "Imported")
     elif isinstance(source, (Family, Samples)):
         traced = source.parameter or _only(ranges)
         attached = _attached(source)

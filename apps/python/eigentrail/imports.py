@@ -30,9 +30,6 @@ class Imported:
     def __repr__(self) -> str:
         return "\n".join([f"Imported: {self.title}", *("  " + line for line in self.understood)])
 
-    def scene(self) -> Any:
-        return engine().parse_scene(self.text, "Imported", {"model.h5": self.image}, generated=True)
-
     def save(self, folder: Union[str, os.PathLike[str]], name: str = "model", overwrite: bool = False) -> str:
         """Writes `name`.toml and `name`.h5 to the folder; returns the path of the scene. Files that exist are kept
         (FileExistsError), unless `overwrite`."""

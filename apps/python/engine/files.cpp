@@ -137,13 +137,11 @@ void write_files(const std::vector<std::pair<std::string, py::bytes>>& contents,
 }  // namespace
 
 void add_files(py::module_& module) {
-  module.def("import_files", &import_files, py::arg("format"), py::arg("files"), py::arg("options"),
-             py::arg("folder"));
+  module.def("import_files", &import_files);
   module.def("import_formats", &formats);
-  module.def("read_file", &read_file, py::arg("image"), py::arg("called"), py::arg("names"));
-  module.def("write_files", &write_files, py::arg("contents"), py::arg("overwrite"));
-  module.def("drawing_data", &drawing_data, py::arg("loci_file"), py::arg("node"),
-             py::call_guard<py::gil_scoped_release>());
+  module.def("read_file", &read_file);
+  module.def("write_files", &write_files);
+  module.def("drawing_data", &drawing_data, py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace eigentrail::python

@@ -165,19 +165,11 @@ void add_runs(py::module_& module) {
       .def_readonly("interrupted", &Outcome::interrupted)
       .def_readonly("remarks", &Outcome::remarks);
   py::class_<FunctionSource>(module, "FunctionSource")
-      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>(),
-           py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("resolution"),
-           py::arg("breaks"), py::arg("state_names"));
-  module.def("trace", &run_trace, py::arg("scene"), py::arg("options"), py::arg("function"),
-             py::arg("threads"), py::arg("progress"));
-  module.def("boundary", &run_boundary, py::arg("scene"), py::arg("second"), py::arg("second_from"),
-             py::arg("second_to"), py::arg("parameter"), py::arg("first_from"), py::arg("first_to"),
-             py::arg("tolerance"), py::arg("damping_ratio"), py::arg("lines"), py::arg("progress"));
-  module.def("stability_map", &run_map, py::arg("scene"), py::arg("options"), py::arg("second"),
-             py::arg("second_from"), py::arg("second_to"), py::arg("n_second"), py::arg("n_first"),
-             py::arg("jobs"), py::arg("progress"));
-  module.def("accuracy", &run_accuracy, py::arg("scene"), py::arg("options"), py::arg("tolerances"),
-             py::arg("orders"), py::arg("grids"), py::arg("samples"), py::arg("repeat"), py::arg("progress"));
+      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>());
+  module.def("trace", &run_trace);
+  module.def("boundary", &run_boundary);
+  module.def("stability_map", &run_map);
+  module.def("accuracy", &run_accuracy);
 }
 
 }  // namespace eigentrail::python
