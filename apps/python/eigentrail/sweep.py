@@ -15,7 +15,7 @@ from .checked import checked
 from .errors import SceneError, TraceError
 from .given import Source, within
 from .later import xarray
-from .progress import Bar, Progress
+from .progress import Progress, bar
 from .files import read
 from .runs import Run, trace_file
 from .selection import OF_PATH, columns_of, evaluated, path_of
@@ -123,7 +123,7 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             return _Failed(error)
         return _Traced(traced)
 
-    with ThreadPoolExecutor(jobs) as pool, Bar(progress, "sweep") as show:
+    with ThreadPoolExecutor(jobs) as pool, bar(progress, "sweep") as show:
         futures: list[Future[Any]] = [pool.submit(run, place) for place in places]
         try:
             found = []

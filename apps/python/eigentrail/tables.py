@@ -14,17 +14,10 @@ def events(loci: Any) -> pandas.DataFrame:
 
     For a sampled family, `interval_from` and `interval_to` are the parameter values between which it lies as far as the
     errors of the data tell; NaN for kinds that have no interval."""
-    parameter = loci.attrs["parameter"]
-    table = pandas.DataFrame({
-        "kind": loci.event_kind.values,
-        parameter: loci.event_parameter.values,
-        "eigenvalue": loci.event_eigenvalue.values,
-        "modes": [_mode_names(loci, text) for text in loci.event_modes.values],
-        "direction": loci.event_direction.values,
-        "value": loci.event_value.values,
-        "half_width": loci.event_half_width.values,
-        "node": loci.event_node.values,
-    }, index=pandas.Index(loci.event.values, name="event"))
+    names = ["kind", "parameter", "eigenvalue", "modes", "direction", "value", "half_width", "node"]
+    table = pandas.DataFrame({name: loci[f"event_{name}"].values for name in names}, pandas.Index(loci.event.values, name="event"))
+    table["modes"] = [_mode_names(loci, text) for text in table["modes"]]
+    table = table.rename(columns={"parameter": loci.attrs["parameter"]})
     if "event_interval" in loci:  # of a sampled family
         table["interval_from"], table["interval_to"] = loci.event_interval.values.reshape(-1, 2).T
     return table
