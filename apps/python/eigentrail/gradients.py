@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -119,11 +119,10 @@ def _of_flutter(loci: xarray.Dataset, event: int) -> pandas.Series:
     points = np.flatnonzero(loci.event_kind.values == "flutter")
     if len(points) <= event:
         raise SceneError(f"flutter {event}: the trace has {len(points)} flutter points")
-    point = points[event]
-    shift = loci.event_shift.values[point]
-    known = [str(name) for name in loci.scene_parameter.values]
-    return _series(known, shift, loci.event_parameter.values[point], loci.event_parameter.values[point],
-                   str(loci.event_modes.values[point]), drop=loci.attrs["parameter"])
+    point = loci.isel(event=points[event])
+    at = float(point.event_parameter)
+    return _series(map(str, loci.scene_parameter.values), point.event_shift.values, np.float64(at), at,
+                   str(point.event_modes.values)).drop(loci.attrs["parameter"])
 
 
 def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pandas.Series:
@@ -154,9 +153,7 @@ def _scene_of(loci: xarray.Dataset) -> tuple[Any, list[tuple[str, str]]]:
     return scene, options
 
 
-def _series(names: Any, values: Any, result: Any, at: float, mode: str, drop: Optional[str] = None) -> pandas.Series:
+def _series(names: Any, values: Any, result: Any, at: float, mode: str) -> pandas.Series:
     series = pandas.Series(np.asarray(values), index=pandas.Index(list(names), name="parameter"))
-    if drop is not None:
-        series = series.drop(drop)
     series.attrs.update(value=result, at=float(at), mode=mode)
     return series

@@ -73,11 +73,23 @@ class Selection:
         """Dataset at these values: along their dimension (none for a number), `passage` if the path turns back, and
         `mode`."""
         dimension, values = self._indexer(wanted)
-        step, s, certified = evaluated(self._path, self._loci.certified.values, values)
-        self._refuse_missing(values, step)
-        errors = {name: np.where(np.isnan(s), np.nan, self._loci[name].values[step])
-                  for name in DATA_ERRORS if name in self._loci}
-        found = self._dataset({**columns_of(s, certified), **errors}, dimension or "place", values)
+        loci, parameter = self._loci, self._parameter
+        step, s, certified = evaluated(self._path, loci.certified.values, values)
+        missing = values[step[:, 0] < 0]
+        if len(missing):
+            ends = [f"{end:.15g}" for end in (parameter.values.min(), parameter.values.max())]
+            unit = parameter.attrs["units"]
+            raise SceneError(f"{parameter.name} = {missing[0]:.15g} lies outside the traced range "
+                             f"{' ... '.join(ends)}{'' if unit == '1' else ' ' + unit}")
+        columns = columns_of(s, certified)
+        columns.update({name: np.where(np.isnan(s), np.nan, loci[name].values[step]) for name in DATA_ERRORS if name in loci})
+        along = dimension or "place"
+        words = {"long_name": "how often the path has taken the value before", "units": "1"}
+        found = xarray.Dataset(
+            {name: ((along, "passage", "mode"), column, loci[name].attrs) for name, column in columns.items()},
+            coords={parameter.name: (along, values, parameter.attrs), "passage": ("passage", np.arange(s.shape[1]), words),
+                    **{name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}},
+            attrs={"title": loci.attrs["title"]})
         if not self._path.turns_back:
             found = found.isel(passage=0, drop=True)
         return found if dimension else found.isel(place=0)
@@ -95,26 +107,6 @@ class Selection:
         of_its_own = isinstance(wanted, xarray.DataArray) and wanted.dims
         dimension = None if values.ndim == 0 else wanted.dims[0] if of_its_own else self._parameter.name
         return dimension, np.atleast_1d(values)
-
-    def _refuse_missing(self, values, step):
-        missing = values[step[:, 0] < 0]
-        if len(missing):
-            name, path = self._parameter.name, self._parameter.values
-            unit = self._parameter.attrs["units"]
-            raise SceneError(f"{name} = {missing[0]:.15g} lies outside the traced range "
-                             f"{path.min():.15g} ... {path.max():.15g}{'' if unit == '1' else ' ' + unit}")
-
-    def _dataset(self, columns, dimension, values):
-        loci = self._loci
-        dims = (dimension, "passage", "mode")
-        passages = columns["eigenvalue"].shape[1]
-        labels = {name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}
-        return xarray.Dataset(
-            {name: (dims, column, loci[name].attrs) for name, column in columns.items()},
-            coords={self._parameter.name: (dimension, values, self._parameter.attrs),
-                    "passage": ("passage", np.arange(passages),
-                                {"long_name": "how often the path has taken the value before", "units": "1"}), **labels},
-            attrs={"title": loci.attrs["title"]})
 
 
 def curve(boundary: xarray.Dataset, number: int, points: int) -> xarray.Dataset:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import os
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections import UserDict
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Optional
 
@@ -139,21 +140,12 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             raise
 
 
-class Runs(Mapping[tuple[Any, ...], Any]):
+class Runs(UserDict[tuple[Any, ...], Any]):
     """The Datasets of the traces by their values; a TraceError where one could not begin. Each is read when it is asked for."""
 
-    def __init__(self, places: Sequence[tuple[Any, ...]], traced: Sequence[Any]):
-        self._runs = dict(zip(places, traced))
-
     def __getitem__(self, place: tuple[Any, ...]) -> Any:
-        run = self._runs[place]
+        run = super().__getitem__(place)
         return run.loci() if isinstance(run, Run) else run
-
-    def __iter__(self) -> Iterator[tuple[Any, ...]]:
-        return iter(self._runs)
-
-    def __len__(self) -> int:
-        return len(self._runs)
 
 
 def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places: Sequence[tuple[Any, ...]],
@@ -182,7 +174,7 @@ def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places:
     data["flutter"].attrs = dict(loci[parameter].attrs, long_name="first flutter")
     data["least_damping"] = data["damping_ratio"].min([parameter, "mode"]).assign_attrs(
         long_name="least damping ratio", units="1")
-    data.encoding[RUNS] = Runs(places, [run.run for run in runs])
+    data.encoding[RUNS] = Runs(zip(places, [run.run for run in runs]))
     return data
 
 

@@ -249,10 +249,7 @@ class LociFigure:
     def begin(self, size, modes, further=()):
         """The picture, and the height (inches) at which panels end below the title and the legend. `further`: texts that the
         legend has besides those of events, ranges and styles of lines."""
-        picture = Picture(*size, title=str(self.loci.attrs.get("title", "")))
-        texts = self._legend_texts(modes) + list(further)
-        picture.legend_columns, rows = legend_grid(texts, size[0] - LEFT)
-        return picture, size[1] - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * rows
+        return framed(self.loci, size, self._legend_texts(modes) + list(further))
 
     def _legend_texts(self, modes):
         loci = self.loci
@@ -283,11 +280,12 @@ def _lengths(x, y):
     return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
 
 
-def legend_grid(texts, width):
-    """Columns and rows of a legend on this width (inches)."""
+def framed(data, size, texts):
+    """A picture with the title of a Dataset, and the height (inches) at which panels end below it and a legend of these texts."""
+    picture = Picture(*size, title=str(data.attrs.get("title", "")))
     widest = max((text_width(text, NAME) + 34 for text in texts), default=1)
-    columns = max(min(int(72 * width // widest), len(texts)), 1)
-    return columns, -(-len(texts) // columns)
+    columns = picture.legend_columns = max(min(int(72 * (size[0] - LEFT) // widest), len(texts)), 1)
+    return picture, size[1] - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * -(-len(texts) // columns)
 
 
 def event_label(kind, p, value):
