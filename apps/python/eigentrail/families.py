@@ -258,9 +258,7 @@ def _require_equations(given: Collection[str]) -> None:
 
 def _require_names(names: Optional[Sequence[str]], labelled: Mapping[str, Any]) -> None:
     """SceneError unless all matrices have one size, with a name for each coordinate."""
-    label, first = next(iter(labelled.items()), ("", None))
-    for other, matrix in labelled.items():
-        matrices.require_size(other, matrix, label, first)
+    label, first = matrices.require_one_size(labelled)
     if names is not None and first is not None and len(names) != first.shape[-1]:
         raise SceneError(f"names: expected {first.shape[-1]} of them, one per row of {label}; found {len(names)}")
 

@@ -7,7 +7,7 @@ from ..selection import mode_names
 from .curves import DASHED, DOTTED, SOLID, Curves, damping_percent, oscillates, parts, runs, with_ends, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
-from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, PARTIAL_RANGE, RANGES, TOO_CLOSE, WARNING, mode_colour,
+from .style import (ANGULAR, FAINT, GREY, INK, OTHER_EVENT, PARTIAL_RANGE, RANGES, TOO_CLOSE, WARNING, event_kinds, mode_colour,
                     mode_symbol, number, with_unit)
 
 MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
@@ -186,15 +186,15 @@ class LociFigure:
 
         `events`: events instead of those of the file; `before`: adds labels that come first. Returns the room that is left."""
         found = {}
-        for kind, p, s, value, modes in events or self.event_table():
+        for kind, p, s, value, _ in events or self.event_table():
             s = complex(without_rounding(np.complex128(s)))
             x, y = place(p, s)
             if np.isfinite(x) and np.isfinite(y) and _within(panel, x, y) and (labelled or kind not in OF_FREQUENCY):
-                found.setdefault(kind, []).append((x, y, event_label(kind, p, value), modes))
+                found.setdefault(kind, []).append((x, y, event_label(kind, p, value)))
         count = sum(map(len, found.values()))
         for kind, marks in found.items():
-            symbol, words = EVENTS.get(kind, (OTHER_EVENT, kind))
-            xs, ys, texts, _ = zip(*marks)
+            symbol, words, _ = event_kinds().get(kind, (OTHER_EVENT, kind, False))
+            xs, ys, texts = zip(*marks)
             size, colour = (6.0, INK) if count <= CROWDED else (4.5, INK) if kind not in OF_FREQUENCY else (3.5, GREY)
             colour = WARNING if kind == TOO_CLOSE else colour
             panel.items.append(Marks(np.array(xs), np.array(ys), symbol, colour, size, kind, list(texts)))
@@ -203,8 +203,8 @@ class LociFigure:
             self._add_intervals(panel, place)
         room = Room(panel)
         before(room)
-        for kind in sorted(found, key=lambda kind: list(EVENTS).index(kind) if kind in EVENTS else 99):
-            for x, y, text, _ in found[kind] if labelled else ():
+        for kind in event_kinds() if labelled else ():
+            for x, y, text in found.get(kind, ()):
                 if text:
                     room.beside(x, y, text, NAME if count <= CROWDED else SMALL, 5)
         return room
@@ -253,7 +253,7 @@ class LociFigure:
 
     def _legend_texts(self, modes):
         loci = self.loci
-        texts = [words for kind, (_, words) in EVENTS.items() if kind in set(loci.event_kind.values)]
+        texts = [words for kind, (_, words, _) in event_kinds().items() if kind in set(loci.event_kind.values)]
         texts += sorted({words for _, _, (_, _, words) in self.ranges()})
         texts += [] if self.curves.errors() is None else [ERROR_WORDS]
         styles = {style for mode in modes for style in self.curves.styles(mode)}
@@ -297,9 +297,8 @@ def event_label(kind, p, value):
         return f"{number(100 * value, 3)} % at {place}" if kind == "damping_ratio" else ""
     if kind == "log_decrement":
         return f"\u03b4 {number(value, 3)} at {place}"
-    if kind in ("flutter", "divergence", "collision", "fold", "branch_point"):
-        return f"{EVENTS[kind][1]} {place}"
-    return ""
+    _, words, labelled = event_kinds().get(kind, ("", "", False))
+    return f"{words} {place}" if labelled else ""
 
 
 def _within(panel, x, y):

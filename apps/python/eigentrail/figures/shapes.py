@@ -223,8 +223,8 @@ def _bent_shafts(loci, shape, title, size):
         shape = shape / shape[np.abs(shape).argmax()]
     moved = np.append(shape, 0.0)[loci.shaft_coordinate.values]  # a freedom that is held has the index -1: zero
     parts = []
-    for number in np.unique(loci.shaft_number.values):
-        nodes = np.flatnonzero(loci.shaft_number.values == number)
+    for shaft_number in np.unique(loci.shaft_number.values):
+        nodes = np.flatnonzero(loci.shaft_number.values == shaft_number)
         shaft = str(loci.shaft_node.values[nodes[0]]).rsplit("node", 1)[0].strip()
         for axis, name in enumerate(loci.shaft_axis.values):
             parts.append((f"{shaft} {name}".strip(), loci.shaft_place.values[nodes], moved[nodes, axis]))

@@ -8,7 +8,7 @@ from .drawing import excitation
 from .loci import BOTTOM, LEFT, MOST_NAMED, NAME, RIGHT, LociFigure, padded
 from .picture import Axis, Line, Marks, Span
 from .separation import Operation
-from .style import ANGULAR, EVENTS, GREY, INK, MARGIN, OPERATION, TOO_CLOSE, mode_colour, number
+from .style import ANGULAR, GREY, INK, MARGIN, OPERATION, TOO_CLOSE, event_kinds, mode_colour, number
 
 
 def harmonics_of(figure, asked):
@@ -39,7 +39,7 @@ def campbell_picture(loci, harmonics=None, unit=None, log=False, size=None):
     modes = [mode for mode in modes if np.nanmin(figure.frequency[:, mode]) < high]
     events = [*figure.event_table(), *ray_crossings(figure, modes, harmonics, source)]
     operation = Operation.of(loci)
-    words = [OPERATION[2], MARGIN[2], EVENTS[TOO_CLOSE][1]] if operation.ranges else []
+    words = [OPERATION[2], MARGIN[2], event_kinds()[TOO_CLOSE][1]] if operation.ranges else []
     picture, top = figure.begin(size or (9.0, 6.5), modes, ["resonance", *words] if harmonics else words)
     right, middle = picture.width - RIGHT - figure.name_width(modes), BOTTOM + 0.3 * (top - BOTTOM)
     above = picture.add(LEFT, middle + 0.18, right, top, figure.parameter_axis(),
