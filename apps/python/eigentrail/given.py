@@ -75,7 +75,7 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
     return Given(scene, function, ranges, warnings, attached)
 
 
-def option_text(key: str, value: Any) -> str:
+def option_text(value: Any) -> str:
     """The value of an option as on the command line."""
     if isinstance(value, bool):
         return "true" if value else "false"

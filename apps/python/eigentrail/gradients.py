@@ -148,7 +148,7 @@ def _scene_of(loci: xarray.Dataset) -> tuple[Any, list[tuple[str, str]]]:
     """The scene that was traced, with the files of its matrices, and the options that say which model it is."""
     attached = loci.encoding.get(ATTACHED, Attached())
     scene = attached.scene(loci.attrs["scene"], loci.attrs["scene_path"])
-    options = [(key, option_text(key, loci.attrs[f"option_{key}"])) for key in ("parameter", "without")
+    options = [(key, option_text(loci.attrs[f"option_{key}"])) for key in ("parameter", "without")
                if loci.attrs.get(f"option_{key}", "none") not in ("none", "")]
     return scene, options
 

@@ -49,7 +49,8 @@ def samples(label: str, given: Any, count: int) -> Any:
 
 def require_one_size(labelled: Mapping[str, Any]) -> tuple[str, Any]:
     """The first matrix and its label; SceneError unless all have its size."""
-    label, first = next(iter(labelled.items()), ("", None))
+    label = next(iter(labelled), "")
+    first: Any = labelled.get(label)
     for other, given in labelled.items():
         if given.shape != first.shape:
             size, first_size = (" x ".join(map(str, one.shape)) for one in (given, first))

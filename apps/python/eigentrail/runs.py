@@ -249,11 +249,11 @@ def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, fir
     twice = [key for key, value in options.items() if value is not None and key in (others or {})]
     if twice:
         raise SceneError(f"{twice[0]}: is a keyword, and among the options; give one of them")
-    chosen = [(key, option_text(key, value)) for key, value in {**options, **(others or {})}.items() if value is not None]
+    chosen = [(key, option_text(value)) for key, value in {**options, **(others or {})}.items() if value is not None]
     if first is None:
         return chosen
     named = [] if first == given.scene.traced else [("parameter", first)]
-    ends = [(key, option_text(key, end)) for key, end in zip(("from", "to"), given.ranges.get(first, ()))]
+    ends = [(key, option_text(end)) for key, end in zip(("from", "to"), given.ranges.get(first, ()))]
     return named + ends + chosen
 
 

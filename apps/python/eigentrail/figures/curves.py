@@ -28,7 +28,6 @@ class Curves:
             raise SceneError("the trace has no steps: there are no curves to draw")
         self._loci = loci
         self._path = path_of(loci, loci.attrs["parameter"])
-        self.turns_back = self._path.turns_back
         self._refine()
 
     def eigenvalues(self, step, t):

@@ -103,7 +103,6 @@ class Label:
     align: str = "left"
     dx: float = 0.0
     dy: float = 0.0
-    turn: float = 0.0  # degrees, counterclockwise
     halo: bool = False  # with a white edge, where lines are below it
     boxed: bool = False  # on a white ground, which hides the line behind it
 

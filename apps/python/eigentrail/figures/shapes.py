@@ -235,12 +235,10 @@ def _over_the_axis(parts, title, size):
     """Displacements (name, places, values) over the place along an axis: where the largest component is real, and later."""
     parts = [(name, np.real(places), values) for name, places, values in parts]
     largest = max(np.abs(values).max() for _, _, values in parts) or 1.0
-    picture = Picture(*(size or (8.0, 4.2)), title=title)
     low, high = min(places.min() for _, places, _ in parts), max(places.max() for _, places, _ in parts)
     pad = 0.02 * (high - low)
-    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6,
-                        Axis("place along the axis, m", low - pad, high + pad), Axis("displacement / largest", -1.12, 1.12))
-    panel.items.append(Line([low - pad, high + pad], [0, 0], GREY, 0.8, name="axis"))
+    picture, panel = _chart(title, size or (8.0, 4.2), Axis("place along the axis, m", low - pad, high + pad),
+                            Axis("displacement / largest", -1.12, 1.12))
     for turned, dash, later in ((1.0, "solid", ""), (1j, "dash", ", a quarter period later")):
         for (words, places, values), colour in zip(parts, cycle((BLUE, ORANGE, GREEN, PINK))):
             height = (turned * values).real / largest
@@ -250,6 +248,14 @@ def _over_the_axis(parts, title, size):
             panel.items.append(Marks(places, height, "circle", colour, 3.5, f"{words}{later}, nodes"))
             picture.legend.append(Line([], [], colour, 1.6, dash, legend=words + later))
     return picture
+
+
+def _chart(title, size, x, y):
+    """A picture of one panel with a line at zero."""
+    picture = Picture(*size, title=title)
+    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, x, y)
+    panel.items.append(Line([x.low, x.high], [0, 0], GREY, 0.8, name="axis"))
+    return picture, panel
 
 
 def _bars(loci, shape, title, size):
@@ -275,15 +281,10 @@ def _bars(loci, shape, title, size):
 
 def _profile(shape, title, size):
     """Components over their numbers, where there are too many for bars."""
-    picture = Picture(*(size or (8.0, 4.0)), title=title)
     n = len(shape)
-    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, Axis("number of the coordinate", 0, n + 1),
-                        Axis("component / largest", -1.08, 1.08))
-    where = np.arange(1, n + 1)
-    size_of = np.abs(shape)
-    panel.items += [
-        Area(np.concatenate([where, where[::-1]]), np.concatenate([size_of, -size_of[::-1]]), BLUE, 0.18, "magnitude"),
-        Line([0, n + 1], [0, 0], GREY, 0.8, name="axis"),
-        Line(where, shape.real, BLUE, 1.2, name="real part")]
+    picture, panel = _chart(title, size or (8.0, 4.0), Axis("number of the coordinate", 0, n + 1), Axis("component / largest", -1.08, 1.08))
+    where, size_of = np.arange(1, n + 1), np.abs(shape)
+    panel.items += [Area(np.concatenate([where, where[::-1]]), np.concatenate([size_of, -size_of[::-1]]), BLUE, 0.18, "magnitude"),
+                    Line(where, shape.real, BLUE, 1.2, name="real part")]
     picture.legend = [Line([], [], BLUE, 1.2, legend="real part"), Area([], [], BLUE, 0.18, legend="magnitude")]
     return picture

@@ -137,8 +137,7 @@ def _draw_label(axes, item):
     if item.boxed:
         more["bbox"] = dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.85)
     axes.annotate(item.text, (item.x, item.y), xytext=(item.dx, item.dy), textcoords="offset points", ha=item.align,
-                  va="center", fontsize=item.size, color=item.colour, rotation=item.turn, annotation_clip=False, zorder=5,
-                  parse_math=False, rotation_mode="anchor" if item.turn else "default", **more)
+                  va="center", fontsize=item.size, color=item.colour, annotation_clip=False, zorder=5, parse_math=False, **more)
 
 
 def _draw_cells(axes, item):

@@ -116,7 +116,7 @@ def _text(item, axes, panel):
     y, yref = _reference(panel.y, item.y, axes["yaxis"], panel.bottom, panel.height)
     return dict(x=x, y=y, xref=xref, yref=yref, text=plain(item.text), showarrow=False,
                 font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
-                xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
+                xshift=item.dx * POINT, yshift=item.dy * POINT, borderpad=0,
                 bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
 
 
