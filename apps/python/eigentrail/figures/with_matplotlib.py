@@ -110,25 +110,23 @@ def _mark(item):
             "markerfacecolor": "none" if open_ else colour, "markeredgecolor": colour if open_ or base in STROKES else "white"}
 
 
-def _line(item):
-    """Keywords of a line."""
-    return {"color": item.colour, "linewidth": item.width, "linestyle": DASHES[item.dash]}
-
-
 def _draw_line(axes, item):
-    axes.plot(item.x, item.y, clip_on=item.clip, solid_capstyle="round", label=item.name or None, **_line(item))
+    return axes.plot(item.x, item.y, color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash], clip_on=item.clip,
+                     solid_capstyle="round", label=item.name or None)
 
 
 def _draw_marks(axes, item):
-    axes.plot(item.x, item.y, linestyle="none", zorder=3, label=item.name or None, clip_on=False, **_mark(item))
+    style = DASHES[item.legend_line] if item.legend_line else "none"
+    return axes.plot(item.x, item.y, linestyle=style, color=item.colour, zorder=3, label=item.name or None, clip_on=False,
+                     **_mark(item))
 
 
 def _draw_area(axes, item):
-    axes.fill(item.x, item.y, color=item.colour, alpha=item.opacity, linewidth=0, label=item.name or None)
+    return axes.fill(item.x, item.y, color=item.colour, alpha=item.opacity, linewidth=0, label=item.name or None)
 
 
 def _draw_span(axes, item):
-    axes.axvspan(item.low, item.high, color=item.colour, alpha=item.opacity, linewidth=0, zorder=0)
+    return [axes.axvspan(item.low, item.high, color=item.colour, alpha=item.opacity, linewidth=0, zorder=0)]
 
 
 def _draw_label(axes, item):
@@ -167,17 +165,9 @@ _DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_sp
 
 
 def _draw_legend(figure, picture, left, top):
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
     handles = []
-    for item in picture.legend:
-        if isinstance(item, Marks):
-            style = DASHES[item.legend_line] if item.legend_line else "none"
-            handle = Line2D([], [], linestyle=style, color=item.colour, **_mark(item))
-        elif isinstance(item, Line):
-            handle = Line2D([], [], **_line(item))
-        else:
-            handle = Patch(facecolor=item.colour, alpha=item.opacity, linewidth=0)
+    for item in picture.legend:  # they have no data, so that nothing of them is seen in the axes
+        (handle,) = _DRAWN[type(item)](figure.axes[0], item)
         handle.set_label(item.legend)
         handles.append(handle)
     columns = picture.legend_columns
