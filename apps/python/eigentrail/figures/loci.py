@@ -30,7 +30,8 @@ class LociFigure:
     """What the figures of a trace have in common.
 
     What they draw of modes are arrays x (n) or (n, mode) and y (n, mode) at all places of the curves, NaN where nothing is drawn:
-    `s`; of oscillations, and to the places next to them, `frequency` (in `unit`) and `damping` (percent).
+    `s`; of oscillations, and to the places next to them, `frequency` (in `unit`) and `damping` (percent). `damping_per_error`:
+    change of the latter per change of s.
     """
 
     def __init__(self, loci, unit=None):
@@ -49,6 +50,8 @@ class LociFigure:
         shown = with_ends(oscillates(self.s)) & np.isfinite(self.s)
         self.frequency = np.where(shown, np.abs(self.s.imag) / self.factor, np.nan)
         self.damping = np.where(shown, damping_percent(self.s), np.nan)
+        with np.errstate(divide="ignore"):
+            self.damping_per_error = 100 / np.abs(self.s)
         self.legend = {}
 
     # Modes.
@@ -90,7 +93,8 @@ class LociFigure:
         errors = self.curves.errors()
         if errors is None:
             return
-        half = errors * per_error
+        with np.errstate(invalid="ignore"):
+            half = errors * per_error
         for mode in modes:
             for begin, end in runs(np.isfinite(y[:, mode])):
                 if end - begin < 2:

@@ -51,7 +51,7 @@ def campbell_picture(loci, harmonics=None, unit=None, log=False, size=None):
         add_operation(figure, panel, operation, events)
     rays = add_rays(figure, above, harmonics, source)
     add_curves(figure, above, modes, figure.frequency, 1 / figure.factor)
-    add_curves(figure, below, modes, figure.damping, 100 / np.abs(figure.s))
+    add_curves(figure, below, modes, figure.damping, figure.damping_per_error)
     events = [(TOO_CLOSE if kind == "resonance" and operation.is_too_close(p, s) else kind, p, s, *more)
               for kind, p, s, *more in events]
     room = figure.add_events(above, lambda p, s: (p, abs(s.imag) / figure.factor), events=events, before=rays)
@@ -78,7 +78,7 @@ def damping_picture(loci, size=None):
     picture, top = figure.begin(size or (9.0, 5.0), modes)
     panel = picture.add(LEFT, BOTTOM, picture.width - RIGHT - figure.name_width(modes), top, figure.parameter_axis(),
                         Axis("damping ratio, %", *damping_range(figure, modes)))
-    add_curves(figure, panel, modes, figure.damping, 100 / np.abs(figure.s))
+    add_curves(figure, panel, modes, figure.damping, figure.damping_per_error)
     room = figure.add_events(panel, damping_place)
     figure.add_names(panel, room, modes, figure.p, figure.damping)
     return figure.finish(picture)
