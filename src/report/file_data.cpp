@@ -1,6 +1,7 @@
 #include "report/file_data.hpp"
 
 #include <filesystem>
+#include <tuple>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -27,17 +28,13 @@ void check_schema(const Hdf5File& file, const std::string& path, int expected) {
 Json data_of_kind(const Hdf5File& file, const std::string& path, const ReportBudget& budget) {
   const std::string format = text_of(file, "format");
   if (format == loci_format) return loci_data(read_loci(path), file, budget);
-  if (format == boundary_format) {
-    check_schema(file, path, boundary_schema_version);
-    return boundary_data(file);
-  }
-  if (format == map_format) {
-    check_schema(file, path, map_schema_version);
-    return map_data(file);
-  }
-  if (format == accuracy_format) {
-    check_schema(file, path, accuracy_schema_version);
-    return accuracy_data(file);
+  for (const auto& [other, schema, data] :
+       {std::tuple(boundary_format, boundary_schema_version, &boundary_data),
+        std::tuple(map_format, map_schema_version, &map_data),
+        std::tuple(accuracy_format, accuracy_schema_version, &accuracy_data)}) {
+    if (format != other) continue;
+    check_schema(file, path, schema);
+    return data(file);
   }
   throw InputError(path + ": is an HDF5 file, but none of eigentrail" +
                    (format.empty() ? "" : " (its format is '" + format + "')"));

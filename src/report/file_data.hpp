@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/hdf5_file.hpp"
+#include "eigentrail/scene/scene.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "report/encode.hpp"
 
@@ -38,6 +39,9 @@ Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget&
 /// harmonics named in the scene. It is the excitation of the scene, or the traced parameter if that has a
 /// unit of frequency; otherwise the result is null (loci_data.cpp).
 Json excitation_data(const LociFile& loci);
+
+/// Values of the parameters of a scene in SI where the traced one, if the scene has it, is p (loci_data.cpp).
+std::vector<double> si_values(const Scene& scene, const std::string& parameter, double p);
 
 /// Points, bodies, places on them and the links between these, from the scene; null for matrix families
 /// (geometry_data.cpp). `nodes`: points of the trace at which the parameters are evaluated.

@@ -5,7 +5,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <span>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/scene/scene.hpp"
@@ -43,13 +42,7 @@ class Figure {
   Figure(const LociFile& loci, const std::vector<std::size_t>& nodes)
       : scene_(parse_scene(loci.attribute("scene"), loci.attribute("scene_path"))),
         carriers_(carriers(loci.coordinates)) {
-    const auto traced = scene_.parameters.index(loci.parameter);
-    for (const std::size_t node : nodes) {
-      Vector values = scene_.parameters.declared_values();
-      if (traced) values[*traced] = loci.p[node];
-      scene_.parameters.to_si<double>({values.data(), static_cast<std::size_t>(values.size())});
-      values_.push_back(values);
-    }
+    for (const std::size_t node : nodes) values_.push_back(si_values(scene_, loci.parameter, loci.p[node]));
     read_bodies();
     for (const auto& [kind, value] : scene_.root.entries) {
       for (const Table* table : tables_of(value)) read_link(kind, *table);
@@ -116,9 +109,9 @@ class Figure {
   /// The coordinates of a place at all nodes; a single triple if they are the same at all.
   Json coordinates(const PlaceExpressions& place) const {
     std::vector<Triple> list;
-    for (const Vector& values : values_) {
-      const std::span<const double> span(values.data(), static_cast<std::size_t>(values.size()));
-      list.push_back({place[0].evaluate(span), place[1].evaluate(span), place[2].evaluate(span)});
+    for (const std::vector<double>& values : values_) {
+      list.push_back({place[0].evaluate<double>(values), place[1].evaluate<double>(values),
+                      place[2].evaluate<double>(values)});
     }
     const bool same = std::all_of(list.begin(), list.end(), [&](const Triple& at) { return at == list[0]; });
     return same ? std::vector<Triple>{list[0]} : list;
@@ -163,7 +156,7 @@ class Figure {
 
   Scene scene_;
   std::vector<Carrier> carriers_;
-  std::vector<Vector> values_;  ///< SI values of the parameters at every node
+  std::vector<std::vector<double>> values_;  ///< SI values of the parameters at every node
   std::map<std::string, std::size_t> markers_;
   Json places_ = Json::array();
   Json lines_ = Json::array();

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
-#include <span>
 
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
@@ -133,19 +132,24 @@ Json whirl_data(const LociFile& loci, const Hdf5File& file) {
   for (const char* name : {"whirl", "whirl_reverse"}) {
     if (!file.has(name) || file.shape(name) != expected) return nullptr;
   }
-  const auto coded = [&](const char* name) {
-    const std::vector<double> values = file.read_real(name);
-    return base64(std::vector<float>(values.begin(), values.end()));
-  };
-  return {{"measure", coded("whirl")}, {"reverse", coded("whirl_reverse")}};
+  return {{"measure", base64<float>(file.read_real("whirl"))},
+          {"reverse", base64<float>(file.read_real("whirl_reverse"))}};
 }
 
 }  // namespace
 
+std::vector<double> si_values(const Scene& scene, const std::string& parameter, double p) {
+  const Vector declared = scene.parameters.declared_values();
+  std::vector<double> values(declared.begin(), declared.end());
+  if (const auto index = scene.parameters.index(parameter)) values[static_cast<std::size_t>(*index)] = p;
+  scene.parameters.to_si<double>(values);
+  return values;
+}
+
 Json excitation_data(const LociFile& loci) {
   constexpr int places = 64;
   try {
-    Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
+    const Scene scene = parse_scene(loci.attribute("scene"), loci.attribute("scene_path"));
     const auto index = scene.parameters.index(loci.parameter);
     if (!index) return nullptr;
     std::set<int> used;
@@ -156,13 +160,10 @@ Json excitation_data(const LociFile& loci) {
     std::vector<double> parameters, frequencies;
     for (int i = 0; i <= places; ++i) {
       const double p = loci.lowest() + (loci.highest() - loci.lowest()) * i / places;
-      Vector values = scene.parameters.declared_values();
-      values[*index] = p;
-      scene.parameters.to_si<double>({values.data(), static_cast<std::size_t>(values.size())});
+      const std::vector<double> values = si_values(scene, loci.parameter, p);
       parameters.push_back(p);
-      frequencies.push_back(events.excitation ? events.excitation->evaluate(std::span<const double>(
-                                                    values.data(), static_cast<std::size_t>(values.size())))
-                                              : values[*index]);
+      frequencies.push_back(events.excitation ? events.excitation->evaluate<double>(values)
+                                              : values[static_cast<std::size_t>(*index)]);
     }
     return {{"parameter", parameters},
             {"frequency", frequencies},

@@ -1,5 +1,6 @@
 // The data of boundary files, stability maps and accuracy studies.
 #include <map>
+#include <span>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/stability/boundary.hpp"
@@ -10,8 +11,14 @@ namespace {
 
 constexpr int samples_per_step = 24;
 
-Json axis(const Hdf5File& file, const std::string& name) {
-  return {{"name", name}, {"unit", file.text_attribute(name, "units")}};
+/// A file over two parameters, with these.
+Json plane(const Hdf5File& file, const char* kind) {
+  const auto axis = [&file](const std::string& name) -> Json {
+    return {{"name", name}, {"unit", file.text_attribute(name, "units")}};
+  };
+  return {{"kind", kind},
+          {"first", axis(file.text_attribute("parameter"))},
+          {"second", axis(file.text_attribute("second_parameter"))}};
 }
 
 /// The curves of a boundary file, sampled from its dense output.
@@ -81,9 +88,7 @@ Json corners(const Hdf5File& file) {
 }  // namespace
 
 Json boundary_data(const Hdf5File& file) {
-  const std::string first = file.text_attribute("parameter");
-  const std::string second = file.text_attribute("second_parameter");
-  Json data{{"kind", "boundary"}, {"first", axis(file, first)}, {"second", axis(file, second)}};
+  Json data = plane(file, "boundary");
   const auto kinds = file.read_texts("curve_kind");
   const auto modes = file.read_texts("curve_mode");
   const auto begins = file.read_texts("curve_begin");
@@ -96,13 +101,12 @@ Json boundary_data(const Hdf5File& file) {
   if (n > 0) {
     const BoundaryCurves curves(file);
     for (std::size_t i = 0; i < n; ++i) {
-      data["curves"].push_back(
-          {{"kind", kinds[i]},
-           {"mode", modes[i]},
-           {"begin", begins[i]},
-           {"end", ends[i]},
-           {"extent", {extent[4 * i], extent[4 * i + 1], extent[4 * i + 2], extent[4 * i + 3]}},
-           {"steps", curves.steps(i)}});
+      data["curves"].push_back({{"kind", kinds[i]},
+                                {"mode", modes[i]},
+                                {"begin", begins[i]},
+                                {"end", ends[i]},
+                                {"extent", std::span(extent).subspan(4 * i, 4)},
+                                {"steps", curves.steps(i)}});
     }
   }
   data["corners"] = corners(file);
@@ -112,24 +116,15 @@ Json boundary_data(const Hdf5File& file) {
 }
 
 Json map_data(const Hdf5File& file) {
-  const std::string first = file.text_attribute("parameter");
-  const std::string second = file.text_attribute("second_parameter");
-  Json data{{"kind", "map"}, {"first", axis(file, first)}, {"second", axis(file, second)}};
-  data["first"]["values"] = file.read_real(first);
-  data["second"]["values"] = file.read_real(second);
+  Json data = plane(file, "map");
+  for (const char* axis : {"first", "second"}) data[axis]["values"] = file.read_real(data[axis]["name"]);
   const Shape window{data["second"]["values"].size(), data["first"]["values"].size()};
   for (const char* name : {"unstable", "margin", "damping_ratio"})
     file.require_fit(file.shape(name) == window, name);
   for (const char* name : {"axis_line", "axis_kind", "axis_frequency"})
     file.require_fit(file.shape(name) == file.shape("axis_parameter"), name);
-  const auto unstable = file.read_integers("unstable");
-  data["unstable"] = base64(std::vector<std::int32_t>(unstable.begin(), unstable.end()));
-  const auto single = [&file](const char* name) {
-    const auto values = file.read_real(name);
-    return base64(std::vector<float>(values.begin(), values.end()));
-  };
-  data["margin"] = single("margin");
-  data["damping_ratio"] = single("damping_ratio");
+  data["unstable"] = base64<std::int32_t>(file.read_integers("unstable"));
+  for (const char* name : {"margin", "damping_ratio"}) data[name] = base64<float>(file.read_real(name));
   data["axis_points"] = {{"line", file.read_integers("axis_line")},
                          {"parameter", file.read_real("axis_parameter")},
                          {"kind", file.read_texts("axis_kind")},

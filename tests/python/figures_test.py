@@ -136,7 +136,7 @@ class Campbell(FigureTest):
         np.testing.assert_allclose(shown.layout.yaxis.range, axes.get_ylim())
 
     def test_both_libraries_have_the_marks_of_all_events(self):
-        for kind, (mark, *_) in style.EVENTS.items():
+        for kind, (mark, *_) in style.event_kinds().items():
             self.assertIn(mark.removesuffix("-open"), with_matplotlib.SYMBOLS, kind)
 
     def test_a_missing_library_is_named_with_the_remedy(self):

@@ -111,6 +111,13 @@ class Loci(FileTest):
         self.assertEqual(ranges[["kind", "cause_from", "cause_to"]].values.tolist(), [["stable", "start", "flutter"]])
         self.assertEqual(ranges["to"][0], self.file.eigentrail.events.omega[0])
 
+    def test_modes_have_numbers_labels_and_names(self):
+        sel = self.file.eigentrail.sel
+        for mode in (2, np.int64(2), "mode 2", "flap"):
+            self.assertTrue(sel(omega=40, mode=mode).identical(sel(omega=40).isel(mode=1)), mode)
+        self.assertTrue(sel(omega=40, mode=[2, "lag"]).identical(sel(omega=40).isel(mode=[1, 0])))
+        self.assert_says(ValueError, "mode=3: the modes have the numbers 1 to 2", sel, omega=40, mode=3)
+
     def test_wrong_requests_say_what_is_expected(self):
         sel = self.file.eigentrail.sel
         self.assert_says(ValueError, "omega = 200 lies outside the traced range 5 ... 100 rad/s", sel, omega=[40, 200])

@@ -9,7 +9,9 @@
     loci = et.open("out.h5")
 """
 
-from .accessor import Eigentrail
+import sys
+from typing import TYPE_CHECKING, Any
+
 from .errors import Error, NotProjected, NotResolved, SceneError, TraceError
 from .families import Family, Samples, StateSpace
 from .files import open
@@ -23,3 +25,13 @@ from .version import __version__
 __all__ = ["Eigentrail", "Error", "Family", "Imported", "NotProjected", "NotResolved", "Samples", "SceneError", "StateSpace",
            "TraceError", "accuracy", "boundary", "events", "explain", "from_files", "from_openfast", "from_ross", "gradient",
            "least_damping", "map", "open", "spectrum", "sweep", "trace", "__version__"]
+
+if TYPE_CHECKING or "xarray" in sys.modules:  # somebody may have Datasets
+    from .accessor import Eigentrail
+else:
+    def __getattr__(name: str) -> Any:
+        """The accessor, which imports xarray."""
+        if name != "Eigentrail":
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from .accessor import Eigentrail
+        return Eigentrail

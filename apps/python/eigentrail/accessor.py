@@ -9,10 +9,9 @@ import numpy as np
 import pandas
 import xarray
 
-from . import boundary, files, ross, tables
-from .errors import SceneError
+from . import files, ross, tables
 from .figures import Figures
-from .selection import Selection
+from .selection import Selection, curve, mode_number
 
 
 @xarray.register_dataset_accessor("eigentrail")
@@ -21,14 +20,6 @@ class Eigentrail(Figures):
 
     Figures: `campbell`, `root_locus`, `damping`, `mode_shape`, `plane`, `work_precision`; see `figures.Figures`."""
 
-    def __init__(self, data: xarray.Dataset):
-        self._data = data
-
-    @property
-    def parameter(self) -> str:
-        """Name of the traced parameter."""
-        return self._of("loci").attrs["parameter"]
-
     def sel(self, mode: Any = None, **at: Any) -> xarray.Dataset:
         """Eigenvalues at any values of the traced parameter, from the dense output: `sel(omega=[12.5, 40])`.
 
@@ -36,7 +27,7 @@ class Eigentrail(Figures):
         damping_ratio and certified along parameter and mode, for a sampled family also of interpolation_error and digits_error (1/s), the bounds of the errors that come from the samples. The values may
         be a number (then without dimension), a list, an array, or a DataArray, whose dimension is kept. If the path
         turns back, there is also a dimension `passage`: the first, second, ... place of the path with the value; NaN
-        where there are fewer. `mode` is a label ("mode 1") or a name ("blade lag"), or a list of these.
+        where there are fewer. `mode` is a number from 1, a label ("mode 1") or a name ("blade lag"), or a list of these.
         """
         return self._modes(self._selection.at(self._wanted(at)), mode)
 
@@ -65,7 +56,7 @@ class Eigentrail(Figures):
         """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
         return tables.stable_ranges(self._of("loci"))
 
-    def save(self, path: Union[str, "os.PathLike[str]"], overwrite: bool = False) -> None:
+    def save(self, path: Union[str, os.PathLike[str]], overwrite: bool = False) -> None:
         """Writes the file that the program would write for this result. A file that exists is kept (FileExistsError), unless
         `overwrite`."""
         files.save(self._data, path, overwrite)
@@ -83,33 +74,15 @@ class Eigentrail(Figures):
         """One curve of a boundary file (`number` from 0) at `points` places, from its dense output.
 
         Returns a Dataset along `point`."""
-        return boundary.curve(self._of("boundary"), number, points)
+        return curve(self._of("boundary"), number, points)
 
     @cached_property
     def _selection(self) -> Selection:
         return Selection(self._of("loci"))
 
-    def _of(self, kind: str) -> xarray.Dataset:
-        found = self._data.attrs.get("format")
-        if found != f"eigentrail-{kind}":
-            raise SceneError(f"only {kind} files have this; the Dataset is of the format {found!r}")
-        return self._data
-
-    def _wanted(self, at: Mapping[str, Any]) -> Any:
-        """The value of the only keyword, which must be the name of the parameter."""
-        if list(at) != [self.parameter]:
-            found = ", ".join(f"{name}=..." for name in at) or "nothing"
-            raise TypeError(f"expected the traced parameter, {self.parameter}=..., found {found}")
-        return at[self.parameter]
-
     def _modes(self, data: xarray.Dataset, wanted: Any) -> xarray.Dataset:
-        """`data` of the modes with these labels or names; of all modes for None."""
+        """`data` of the modes with these numbers, labels or names; of all modes for None."""
         if wanted is None:
             return data
-        labels = [key for key in ("mode", "mode_name") if key in data.coords]
-        number = {name: i for key in labels for i, name in enumerate(data[key].values) if name}
-        several = not isinstance(wanted, str)
-        unknown = [name for name in (wanted if several else [wanted]) if name not in number]
-        if unknown:
-            raise SceneError(f"mode {unknown[0]!r}: expected one of {', '.join(map(repr, number))}")
-        return data.isel(mode=[number[name] for name in wanted] if several else number[wanted])
+        one = isinstance(wanted, (str, int, np.integer))
+        return data.isel(mode=mode_number(data, wanted) if one else [mode_number(data, name) for name in wanted])

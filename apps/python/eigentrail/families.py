@@ -2,21 +2,89 @@
 
 import io
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import Any, Optional, Union
 
-import h5py
 import numpy as np
 
 from . import files, matrices, toml
-from .engine import suggesting
+from .checked import checked
 from .errors import SceneError
 
 Matrices = Any  # one matrix, a list of them by powers of the parameter, or a dict by powers and names
 Range = tuple[Any, Any]
 
 
-class Family:
+class InMemory:
+    """What all families share: labels, and the files that the program reads."""
+
+    function: Optional[Callable[[float], Mapping[str, Any]]] = None
+    parameters: Mapping[str, Any] = {}
+
+    def __init__(self, labelled: Mapping[str, Any], parameter: Optional[str], unit: str, names: Optional[Iterable[Any]],
+                 title: str):
+        self.parameter, self.unit, self.title, self.names = parameter, unit, title, _texts(names)
+        _require_names(self.names, labelled)
+
+    def _span(self) -> Optional[Range]:
+        """The range where none is given."""
+        return None
+
+    def _table(self, file: str) -> Mapping[str, Any]:
+        """The table of the scene that names the file of the matrices."""
+        raise NotImplementedError
+
+    def _datasets(self) -> Mapping[str, Any]:
+        """Those of this file, by their names."""
+        raise NotImplementedError
+
+    def scene(self, parameter: str, span: Optional[Range], file: str = "family.h5") -> str:
+        """The scene of the family as text (TOML); its matrices are in `file`."""
+        span, table, declared = span or self._span(), self._table(file), dict(self.parameters)
+        if parameter not in declared and (self.unit or "matrix_family" not in table):
+            begin = span[0] if span else 0.0
+            declared[parameter] = {"value": begin, "unit": self.unit} if self.unit else begin
+        tables = {"title": self.title, "parameters": declared,
+                  "trace": {"parameter": parameter, **dict(zip(("from", "to"), span or ()))}, **table}
+        return toml.dumps({name: value for name, value in tables.items() if value})
+
+    def image(self) -> bytes:
+        """The matrices as an HDF5 file, in the layout of [matrix_family] or [sampled_family]."""
+        import h5py
+
+        buffer = io.BytesIO()
+        with h5py.File(buffer, "w") as file:
+            for name, values in self._datasets().items():
+                if matrices.is_sparse(values):
+                    for part in ("data", "indices", "indptr"):
+                        file[f"{name}/{part}"] = getattr(values, part)
+                else:
+                    file[name] = values
+            if self.unit and "parameter" in file:
+                file["parameter"].attrs["units"] = self.unit
+        return buffer.getvalue()
+
+    def save(self, path: Union[str, os.PathLike[str]], span: Optional[Range] = None, overwrite: bool = False) -> str:
+        """Writes `path` (.toml), the scene, and the matrices beside it (.h5), for the program. Returns the path. Files that
+        exist are kept (FileExistsError), unless `overwrite`."""
+        if self.function is not None:
+            raise SceneError("a family that a function gives cannot be written; sample it: eigentrail.Samples")
+        scene = os.fspath(path)
+        if not scene.endswith(".toml"):
+            raise SceneError(f"{scene}: expected the name of a scene, *.toml")
+        if self.parameter is None:
+            raise SceneError("expected the name of the parameter: Family(..., parameter=...)")
+        beside = scene[:-len(".toml")] + ".h5"
+        files.write({beside: self.image(), scene: self.scene(self.parameter, span, os.path.basename(beside)).encode()},
+                    overwrite)
+        return scene
+
+    def _described(self, what: str) -> str:
+        unit = f" ({self.unit})" if self.unit else ""
+        return what + (f", parameter {self.parameter}{unit}" if self.parameter else "")
+
+
+class Family(InMemory):
     """M(p) x'' + C(p) x' + K(p) x = 0, or E(p) x' = A(p) x, with matrices in memory.
 
     Each of `M`, `C`, `K`, `E`, `A` is one matrix (numpy or scipy.sparse), a list of matrices for the powers 0, 1, ... of the
@@ -46,10 +114,10 @@ class Family:
     array([1., 2.])
     """
 
-    @suggesting
+    @checked
     def __init__(self, function: Optional[Callable[[float], Mapping[str, Any]]] = None, *, M: Matrices = None,
                  C: Matrices = None, K: Matrices = None, E: Matrices = None, A: Matrices = None,
-                 parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
+                 parameter: Optional[str] = None, unit: str = "", names: Optional[Iterable[Any]] = None,
                  factors: Optional[Mapping[str, Any]] = None, parameters: Optional[Mapping[str, Any]] = None,
                  title: str = "", function_tolerance: Optional[float] = None, max_calls: int = 1000,
                  resolution: float = 0.01, breaks: Sequence[float] = ()):
@@ -61,19 +129,18 @@ class Family:
                             "matrices have keywords: Family(M=..., K=...)")
         self.function = function
         self.matrices = {key: matrices.terms(key, value) for key, value in given.items()}
-        self.parameter, self.unit, self.title = parameter, unit, title
-        self.names = None if names is None else [str(name) for name in names]
-        _require_names(self.names, _labelled(self.matrices))
+        super().__init__(_labelled(self.matrices), parameter, unit, names, title)
         self.factors, self.parameters = dict(factors or {}), dict(parameters or {})
         self.function_tolerance, self.max_calls = function_tolerance, max_calls
         self.resolution, self.breaks = resolution, list(breaks)
 
     def __repr__(self) -> str:
         if self.function is not None:
-            return f"Family of the function {getattr(self.function, '__name__', self.function)}{_parameter_text(self)}"
-        size = next(matrix.shape[0] for _, matrix in _labelled(self.matrices))
-        terms = "; ".join(label + (" sparse" if matrices.is_sparse(matrix) else "") for label, matrix in _labelled(self.matrices))
-        return f"Family of matrices {size} x {size}: {terms}{_parameter_text(self)}"
+            return self._described(f"Family of the function {getattr(self.function, '__name__', self.function)}")
+        labelled = _labelled(self.matrices)
+        terms = "; ".join(label + (" sparse" if matrices.is_sparse(matrix) else "") for label, matrix in labelled.items())
+        size = next(iter(labelled.values())).shape[0]
+        return self._described(f"Family of matrices {size} x {size}: {terms}")
 
     def at(self, p: float, parameter: str) -> dict[str, Any]:
         """The matrices that the function gives at p, dense. What it raises gets a note with the value."""
@@ -91,51 +158,26 @@ class Family:
         try:
             _require_equations(returned)
             found = {key: matrices.dense(matrices.matrix(key, value)) for key, value in returned.items()}
-            _require_names(self.names, found.items())
+            _require_names(self.names, found)
         except SceneError as error:
             raise SceneError(f"{where}: {error}") from None
         return found
 
-    def scene(self, parameter: str, span: Optional[Range], file: str = "family.h5") -> str:
-        """The scene of the family as text (TOML); its matrices are in `file`."""
-        tables: dict[str, Any] = {"title": self.title} if self.title else {}
-        declared = dict(self.parameters)
-        if parameter not in declared and (self.unit or self.function is not None):
-            begin = span[0] if span else 0.0
-            declared[parameter] = {"value": begin, "unit": self.unit} if self.unit else begin
-        if declared:
-            tables["parameters"] = declared
-        tables["trace"] = {"parameter": parameter}
-        if span is not None:
-            tables["trace"].update({"from": span[0], "to": span[1]})
-        if self.function is None:
-            tables["matrix_family"] = {"file": file, **({"factors": self.factors} if self.factors else {}),
-                                       **({"state_names": self.names} if self.names is not None else {})}
-        return toml.dumps(tables)
+    def _table(self, file: str) -> Mapping[str, Any]:
+        if self.function is not None:
+            return {}
+        return {"matrix_family": {"file": file, **({"factors": self.factors} if self.factors else {}),
+                                  **({"state_names": self.names} if self.names is not None else {})}}
+
+    def _datasets(self) -> Mapping[str, Any]:
+        return {f"{key}/{name}": matrix for key, terms in self.matrices.items() for name, matrix in terms.items()}
 
     def is_dense_polynomial(self) -> bool:
         """Whether the engine can take the matrices where they are: dense ones of powers only."""
-        return self.function is None and not self.factors and not any(
-            matrices.is_sparse(matrix) for _, matrix in _labelled(self.matrices))
-
-    def image(self) -> bytes:
-        """The matrices as an HDF5 file, in the layout of [matrix_family]."""
-        buffer = io.BytesIO()
-        with h5py.File(buffer, "w") as file:
-            for key, terms in self.matrices.items():
-                for name, matrix in terms.items():
-                    _write_matrix(file, f"{key}/{name}", matrix)
-        return buffer.getvalue()
-
-    def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None, overwrite: bool = False) -> str:
-        """Writes `path` (.toml), the scene, and the matrices beside it (.h5), for the program. Returns the path. Files that
-        exist are kept (FileExistsError), unless `overwrite`."""
-        if self.function is not None:
-            raise SceneError("a family that a function gives cannot be written; sample it: eigentrail.Samples")
-        return _save(self, path, span, overwrite)
+        return not (self.function or self.factors or any(map(matrices.is_sparse, self._datasets().values())))
 
 
-class Samples:
+class Samples(InMemory):
     """Matrices at values `p` of the parameter, not equidistant in general: arrays of shape (len(p), n, n).
 
         Samples(p, M=M, C=C, K=K, parameter="omega", unit="rad/s")
@@ -150,60 +192,34 @@ class Samples:
     (array([1., 2.]), True)
     """
 
-    function = None
-
-    @suggesting
+    @checked
     def __init__(self, p: Any, *, M: Any = None, C: Any = None, K: Any = None, E: Any = None, A: Any = None,
-                 parameter: Optional[str] = None, unit: str = "", names: Optional[Sequence[str]] = None,
-                 units: Optional[Sequence[str]] = None, digits: Optional[int] = None, kinks: Sequence[float] = (),
+                 parameter: Optional[str] = None, unit: str = "", names: Optional[Iterable[Any]] = None,
+                 units: Optional[Iterable[Any]] = None, digits: Optional[int] = None, kinks: Sequence[float] = (),
                  title: str = ""):
         self.p = np.atleast_1d(matrices.exact("p", p))
         given = _given(dict(M=M, C=C, K=K, E=E, A=A))
         if not given:
             raise TypeError("expected samples of matrices: A (and E), or K with M or C")
         self.samples = {key: matrices.samples(key, value, self.p.size) for key, value in given.items()}
-        self.parameter, self.unit, self.title = parameter, unit, title
-        self.names = None if names is None else [str(name) for name in names]
-        self.units = None if units is None else [str(name) for name in units]
-        _require_names(self.names, ((key, samples[0]) for key, samples in self.samples.items()))
-        self.digits, self.kinks = digits, list(kinks)
+        super().__init__({key: samples[0] for key, samples in self.samples.items()}, parameter, unit, names, title)
+        self.units, self.digits, self.kinks = _texts(units), digits, list(kinks)
 
     def __repr__(self) -> str:
         size = next(iter(self.samples.values())).shape[-1]
-        return (f"{type(self).__name__} of {', '.join(self.samples)}, {size} x {size}, at {self.p.size} values from "
-                f"{self.p.min():g} to {self.p.max():g}{_parameter_text(self)}")
+        return self._described(f"{type(self).__name__} of {', '.join(self.samples)}, {size} x {size}, at {self.p.size} values "
+                               f"from {self.p.min():g} to {self.p.max():g}")
 
-    def scene(self, parameter: str, span: Optional[Range], file: str = "family.h5") -> str:
-        """The scene of the family as text (TOML); its samples are in `file`."""
-        begin, end = span if span is not None else (self.p.min(), self.p.max())
-        tables: dict[str, Any] = {"title": self.title} if self.title else {}
-        tables["parameters"] = {parameter: {"value": begin, "unit": self.unit} if self.unit else begin}
-        tables["trace"] = {"parameter": parameter, "from": begin, "to": end}
-        tables["sampled_family"] = {"file": file}
-        if self.kinks:
-            tables["sampled_family"]["kinks"] = self.kinks
-        if self.digits is not None:
-            tables["sampled_family"]["digits"] = self.digits
-        return toml.dumps(tables)
+    def _span(self) -> Range:
+        return self.p.min(), self.p.max()
 
-    def image(self) -> bytes:
-        """The samples as an HDF5 file, in the layout of [sampled_family]."""
-        buffer = io.BytesIO()
-        with h5py.File(buffer, "w") as file:
-            file["parameter"] = self.p
-            if self.unit:
-                file["parameter"].attrs["units"] = self.unit
-            for key, samples in self.samples.items():
-                file[key] = samples
-            for name, texts in (("state_names", self.names), ("state_units", self.units)):
-                if texts is not None:
-                    file[name] = np.array(texts, dtype=h5py.string_dtype())
-        return buffer.getvalue()
+    def _table(self, file: str) -> Mapping[str, Any]:
+        return {"sampled_family": {"file": file, **({"kinks": self.kinks} if self.kinks else {}),
+                                   **({} if self.digits is None else {"digits": self.digits})}}
 
-    def save(self, path: Union[str, "os.PathLike[str]"], span: Optional[Range] = None, overwrite: bool = False) -> str:
-        """Writes `path` (.toml), the scene, and the samples beside it (.h5), for the program. Returns the path. Files that
-        exist are kept (FileExistsError), unless `overwrite`."""
-        return _save(self, path, span, overwrite)
+    def _datasets(self) -> Mapping[str, Any]:
+        labels = {"state_names": self.names, "state_units": self.units}
+        return {"parameter": self.p, **self.samples, **{name: texts for name, texts in labels.items() if texts is not None}}
 
 
 class StateSpace(Samples):
@@ -240,43 +256,17 @@ def _require_equations(given: Collection[str]) -> None:
         raise SceneError("expected A, and E if it is not the identity; found E")
 
 
-def _require_names(names: Optional[Sequence[str]], labelled: Iterable[tuple[str, Any]]) -> None:
+def _require_names(names: Optional[Sequence[str]], labelled: Mapping[str, Any]) -> None:
     """SceneError unless all matrices have one size, with a name for each coordinate."""
-    label, first = "", None
-    for other, matrix in labelled:
-        if first is None:
-            label, first = other, matrix
-        matrices.require_size(other, matrix, label, first)
+    label, first = matrices.require_one_size(labelled)
     if names is not None and first is not None and len(names) != first.shape[-1]:
         raise SceneError(f"names: expected {first.shape[-1]} of them, one per row of {label}; found {len(names)}")
 
 
-def _labelled(terms: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, Any]]:
-    for key, by_name in terms.items():
-        for name, matrix in by_name.items():
-            yield (key if list(by_name) == ["0"] else f"{key}[{name}]"), matrix
+def _labelled(terms: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    return {key if list(by_name) == ["0"] else f"{key}[{name}]": matrix
+            for key, by_name in terms.items() for name, matrix in by_name.items()}
 
 
-def _write_matrix(file: Any, name: str, matrix: Any) -> None:
-    if not matrices.is_sparse(matrix):
-        file[name] = matrix
-        return
-    for part in ("data", "indices", "indptr"):
-        file[f"{name}/{part}"] = getattr(matrix, part)
-
-
-def _save(family: Any, path: Union[str, "os.PathLike[str]"], span: Optional[Range], overwrite: bool) -> str:
-    scene = os.fspath(path)
-    if not scene.endswith(".toml"):
-        raise SceneError(f"{scene}: expected the name of a scene, *.toml")
-    if family.parameter is None:
-        raise SceneError("expected the name of the parameter: Family(..., parameter=...)")
-    beside = scene[:-len(".toml")] + ".h5"
-    files.write({beside: family.image(), scene: family.scene(family.parameter, span, os.path.basename(beside)).encode()},
-                overwrite)
-    return scene
-
-
-def _parameter_text(family: Any) -> str:
-    unit = f" ({family.unit})" if family.unit else ""
-    return f", parameter {family.parameter}{unit}" if family.parameter else ""
+def _texts(given: Optional[Iterable[Any]]) -> Optional[list[str]]:
+    return None if given is None else [str(one) for one in given]

@@ -1,16 +1,18 @@
 """Opens loci, boundary, map and accuracy files as xarray Datasets."""
 
+from __future__ import annotations
+
 import builtins
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
-import xarray
 
 from .checked import checked
 from .engine import engine
 from .errors import SceneError
+from .later import xarray
 
 SCHEMA = 1
 EXPECTED = "expected a file of eigentrail trace, boundary, map or accuracy"
@@ -33,7 +35,7 @@ Contents = tuple[dict[str, Any], dict[str, Any]]  # {name: (array, attributes)} 
 
 
 @checked
-def open(path: Union[str, "os.PathLike[str]"]) -> xarray.Dataset:
+def open(path: Union[str, os.PathLike[str]]) -> xarray.Dataset:
     """Reads a file written by eigentrail into memory: an xarray Dataset with labels as coordinates.
 
     The accessor `.eigentrail` of the Dataset has functions for each kind of file; see `Eigentrail`. Raises ValueError for
@@ -69,7 +71,7 @@ def read(image: bytes, path: str = "result", names: Sequence[str] = ()) -> Conte
     return engine().read_file(image, path, names)
 
 
-def save(data: xarray.Dataset, path: Union[str, "os.PathLike[str]"], overwrite: bool = False) -> None:
+def save(data: xarray.Dataset, path: Union[str, os.PathLike[str]], overwrite: bool = False) -> None:
     """Writes the file that the Dataset was made from; the same bytes. A file that exists is kept, unless `overwrite`."""
     image = data.encoding.get(IMAGE)
     if image is None or not from_bytes(image).identical(data):

@@ -10,15 +10,15 @@ from numbers import Real
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-import xarray
 
 from . import toml
 from .engine import engine
 from .errors import SceneError
 from .families import Family, Samples
 from .imports import Imported
+from .later import xarray
 
-Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Family, Samples, Imported]
+Source = Union[str, os.PathLike[str], Mapping[str, Any], Family, Samples, Imported]
 
 
 class Given(NamedTuple):
@@ -57,7 +57,7 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
     function, attached = None, Attached()
     if isinstance(source, Imported):
         attached = Attached({"model.h5": source.image})
-        scene = source.scene()
+        scene = attached.scene(source.text, "Imported")
     elif isinstance(source, (Family, Samples)):
         traced = source.parameter or _only(ranges)
         attached = _attached(source)
@@ -75,7 +75,7 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
     return Given(scene, function, ranges, warnings, attached)
 
 
-def option_text(key: str, value: Any) -> str:
+def option_text(value: Any) -> str:
     """The value of an option as on the command line."""
     if isinstance(value, bool):
         return "true" if value else "false"

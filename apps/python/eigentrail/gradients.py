@@ -1,16 +1,18 @@
 """Derivatives of results with respect to the parameters of a scene."""
 
-from typing import Any, NamedTuple, Optional
+from __future__ import annotations
+
+from typing import Any, NamedTuple
 
 import numpy as np
-import pandas
-import xarray
 
 from .checked import checked
 from .engine import engine
 from .errors import SceneError
 from .files import ATTACHED
 from .given import Attached, option_text
+from .later import pandas, xarray
+from .selection import mode_number
 
 QUANTITIES = ("flutter", "damping_ratio", "frequency", "eigenvalue")
 SAMPLES_PER_STEP = 16  # between two of them the least damping ratio is found by refinement
@@ -65,9 +67,7 @@ def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = Non
     value = float(loci.eigentrail._wanted(at))
     if mode is None:
         raise SceneError(f"{quantity}: expected the mode, by its label or name: mode=\"mode 1\"")
-    labels = [str(label) for label in loci.mode.values]
-    chosen = loci.eigentrail.sel(mode=mode, **at)
-    return _of_mode(loci, quantity, value, labels.index(str(chosen.mode.values)))
+    return _of_mode(loci, quantity, value, mode_number(loci, mode))
 
 
 @checked
@@ -86,14 +86,12 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     path = np.unique(loci[parameter].values)
     share = np.linspace(0.0, 1.0, SAMPLES_PER_STEP, endpoint=False)
     places = np.append((path[:-1, np.newaxis] + np.diff(path)[:, np.newaxis] * share).ravel(), path[-1])
-    labels = [str(label) for label in loci.mode.values]
-    wanted = slice(None) if mode is None else [labels.index(_label(loci, mode))]
+    chosen = np.arange(loci.sizes["mode"]) if mode is None else np.array([mode_number(loci, mode)])
 
     def ratios(at: Any) -> Any:
         """Damping ratios at places: places x modes of all passages of the path, and the numbers of the modes."""
-        ratio = loci.eigentrail.sel(**{parameter: at}).damping_ratio[..., wanted]
-        modes = np.resize([labels.index(str(label)) for label in ratio.mode.values], ratio.size // len(at))
-        return ratio.values.reshape(len(at), -1), modes
+        ratio = loci.eigentrail.sel(**{parameter: at}).damping_ratio[..., chosen]
+        return ratio.values.reshape(len(at), -1), np.resize(chosen, ratio.size // len(at))
 
     def refined(row: int, column: int) -> Least:
         at = places
@@ -117,26 +115,20 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     return min((refined(int(row), int(column)) for row, column in np.argwhere(may_be)), key=lambda least: least.value)
 
 
-def _label(loci: xarray.Dataset, mode: Any) -> str:
-    chosen = loci.eigentrail._modes(loci[["mode"]], mode)
-    return str(chosen.mode.values)
-
-
 def _of_flutter(loci: xarray.Dataset, event: int) -> pandas.Series:
     points = np.flatnonzero(loci.event_kind.values == "flutter")
     if len(points) <= event:
         raise SceneError(f"flutter {event}: the trace has {len(points)} flutter points")
-    point = points[event]
-    shift = loci.event_shift.values[point]
-    known = [str(name) for name in loci.scene_parameter.values]
-    return _series(known, shift, loci.event_parameter.values[point], loci.event_parameter.values[point],
-                   str(loci.event_modes.values[point]), drop=loci.attrs["parameter"])
+    point = loci.isel(event=points[event])
+    at = float(point.event_parameter)
+    return _series(map(str, loci.scene_parameter.values), point.event_shift.values, np.float64(at), at,
+                   str(point.event_modes.values)).drop(loci.attrs["parameter"])
 
 
 def _of_mode(loci: xarray.Dataset, quantity: str, value: float, mode: int) -> pandas.Series:
     parameter = loci.attrs["parameter"]
     label = str(loci.mode.values[mode])
-    s = complex(np.ravel(loci.eigentrail.sel(**{parameter: value}, mode=label).eigenvalue.values)[0])
+    s = complex(np.ravel(loci.eigentrail.sel(**{parameter: value}).eigenvalue.values[..., mode])[0])
     node = int(np.abs(loci[parameter].values - value).argmin())
     scene, options = _scene_of(loci)
     found = engine().sensitivities(scene, options, value, loci.equilibrium.values[node])
@@ -156,14 +148,12 @@ def _scene_of(loci: xarray.Dataset) -> tuple[Any, list[tuple[str, str]]]:
     """The scene that was traced, with the files of its matrices, and the options that say which model it is."""
     attached = loci.encoding.get(ATTACHED, Attached())
     scene = attached.scene(loci.attrs["scene"], loci.attrs["scene_path"])
-    options = [(key, option_text(key, loci.attrs[f"option_{key}"])) for key in ("parameter", "without")
+    options = [(key, option_text(loci.attrs[f"option_{key}"])) for key in ("parameter", "without")
                if loci.attrs.get(f"option_{key}", "none") not in ("none", "")]
     return scene, options
 
 
-def _series(names: Any, values: Any, result: Any, at: float, mode: str, drop: Optional[str] = None) -> pandas.Series:
+def _series(names: Any, values: Any, result: Any, at: float, mode: str) -> pandas.Series:
     series = pandas.Series(np.asarray(values), index=pandas.Index(list(names), name="parameter"))
-    if drop is not None:
-        series = series.drop(drop)
     series.attrs.update(value=result, at=float(at), mode=mode)
     return series

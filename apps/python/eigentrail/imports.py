@@ -2,6 +2,7 @@
 
 import glob
 import os
+import pathlib
 import tempfile
 import warnings
 from collections.abc import Sequence
@@ -12,7 +13,7 @@ from .engine import engine
 from .errors import SceneError
 from .files import write
 
-Files = Union[str, "os.PathLike[str]", Sequence[Union[str, "os.PathLike[str]"]]]
+Files = Union[str, os.PathLike[str], Sequence[Union[str, os.PathLike[str]]]]
 
 
 class Imported:
@@ -30,10 +31,7 @@ class Imported:
     def __repr__(self) -> str:
         return "\n".join([f"Imported: {self.title}", *("  " + line for line in self.understood)])
 
-    def scene(self) -> Any:
-        return engine().parse_scene(self.text, "Imported", {"model.h5": self.image}, generated=True)
-
-    def save(self, folder: Union[str, "os.PathLike[str]"], name: str = "model", overwrite: bool = False) -> str:
+    def save(self, folder: Union[str, os.PathLike[str]], name: str = "model", overwrite: bool = False) -> str:
         """Writes `name`.toml and `name`.h5 to the folder; returns the path of the scene. Files that exist are kept
         (FileExistsError), unless `overwrite`."""
         os.makedirs(folder, exist_ok=True)
@@ -61,18 +59,16 @@ def from_files(format: str, files: Files, **options: Any) -> Imported:
     known = engine().import_formats()
     if format not in known:
         raise SceneError(f"format: {format!r} is not read; {engine().suggestion(format, list(known))}")
-    unknown = [name for name in options if name.replace("_", "-") not in known[format] and name not in known[format]]
-    if unknown:
-        raise SceneError(f"{unknown[0]}: is no option of {format}; {engine().suggestion(unknown[0], list(known[format]))}")
-    texts = {(name if name in known[format] else name.replace("_", "-")):
-             ",".join(str(item) for item in value) if isinstance(value, (list, tuple)) else str(value)
-             for name, value in options.items()}
+    texts = {}
+    for name, value in options.items():
+        key = name if name in known[format] else name.replace("_", "-")
+        if key not in known[format]:
+            raise SceneError(f"{name}: is no option of {format}; {engine().suggestion(name, list(known[format]))}")
+        texts[key] = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
     with tempfile.TemporaryDirectory(prefix="eigentrail-") as folder:
         found = engine().import_files(format, paths, texts, folder)
-        with open(os.path.join(folder, "model.toml"), encoding="utf-8") as file:
-            text = file.read()
-        with open(os.path.join(folder, "model.h5"), "rb") as file_of_matrices:
-            image = file_of_matrices.read()
+        text = pathlib.Path(folder, "model.toml").read_text(encoding="utf-8")
+        image = pathlib.Path(folder, "model.h5").read_bytes()
     for warning in found["warnings"]:
         warnings.warn(warning, stacklevel=3)
     return Imported(found, text, image)

@@ -42,20 +42,20 @@ def samples(label: str, given: Any, count: int) -> Any:
     if dimensions(given) != 3 or len(given) != count:
         raise SceneError(f"{label}: expected {count} square matrices, an array of shape ({count}, n, n); found "
                          + (f"{len(given)} matrices" if dimensions(given) == 3 else f"{dimensions(given)} dimensions"))
-    return stacked(label, [dense(matrix(f"{label}[{k}]", one)) for k, one in enumerate(given)])
+    each = {f"{label}[{k}]": dense(matrix(f"{label}[{k}]", one)) for k, one in enumerate(given)}
+    require_one_size(each)
+    return np.array(list(each.values()))
 
 
-def stacked(label: str, each: list[Any]) -> Any:
-    for k, one in enumerate(each):
-        require_size(f"{label}[{k}]", one, f"{label}[0]", each[0])
-    return np.array(each)
-
-
-def require_size(label: str, given: Any, other_label: str, other: Any) -> None:
-    """SceneError unless both matrices have the same size."""
-    if given.shape != other.shape:
-        size, other_size = (" x ".join(map(str, one.shape)) for one in (given, other))
-        raise SceneError(f"{label}: is {size}, but {other_label} is {other_size}; all matrices have the same size")
+def require_one_size(labelled: Mapping[str, Any]) -> tuple[str, Any]:
+    """The first matrix and its label; SceneError unless all have its size."""
+    label = next(iter(labelled), "")
+    first: Any = labelled.get(label)
+    for other, given in labelled.items():
+        if given.shape != first.shape:
+            size, first_size = (" x ".join(map(str, one.shape)) for one in (given, first))
+            raise SceneError(f"{other}: is {size}, but {label} is {first_size}; all matrices have the same size")
+    return label, first
 
 
 def dense(given: Any) -> Any:

@@ -7,6 +7,7 @@ code 2.
 """
 
 import argparse
+import inspect
 import os
 import sys
 
@@ -15,12 +16,6 @@ from .engine import engine
 from .figures import planes, shapes, studies, trace_figures, with_matplotlib
 from .version import __version__
 
-KINDS = {"campbell": "loci", "root-locus": "loci", "damping": "loci", "shape": "loci", "plane": "map or boundary",
-         "accuracy": "accuracy"}
-DEFAULTS = {"eigentrail-loci": "campbell", "eigentrail-boundary": "plane", "eigentrail-map": "plane",
-            "eigentrail-accuracy": "accuracy"}
-
-
 class BadInput(ValueError):
     """Options or files that do not fit."""
 
@@ -28,14 +23,15 @@ class BadInput(ValueError):
 def main(arguments=None):
     """Draws and returns the exit code."""
     try:
-        options = _parser().parse_args(arguments)
-        kind = _suffix(options.output)
-        picture = picture_of([files.open(path) for path in options.files], options)
+        options = vars(_parser().parse_args(arguments))
+        output, force = options.pop("output"), options.pop("force", False)
+        kind = _suffix(output)
+        picture = picture_of([files.open(path) for path in options["files"]], options)
         image = with_matplotlib.image(picture, kind, __version__)
     except (ValueError, OSError) as error:
         return _failed(error, 2)
     try:
-        files.write({options.output: image}, options.force)
+        files.write({output: image}, force)
     except (ValueError, OSError, RuntimeError) as error:
         return _failed(error, 1)
     return 0
@@ -48,48 +44,38 @@ def _failed(error, exit_code):
 
 
 def picture_of(data, options):
-    """The picture of Datasets; `options` as of the command."""
-    formats = [one.attrs["format"] for one in data]
-    kind = options.kind or DEFAULTS[formats[0]]
-    fitting = [format_ for format_, default in DEFAULTS.items() if format_.removeprefix("eigentrail-") in KINDS[kind].split()]
-    for path, format_ in zip(options.files, formats):
-        if format_ not in fitting:
-            raise BadInput(f"{path}: a picture of the kind {kind} needs a file of the kind {KINDS[kind]}, found {format_}")
-    _refuse_useless(options, kind)
-    if kind == "plane":
-        return _plane(data, formats, options)
-    if len(data) > 1:
+    """The picture of Datasets; `options` of the command, those that were given, by their names."""
+    formats = [one.attrs["format"].removeprefix("eigentrail-") for one in data]
+    kind = options.pop("kind", None) or next(kind for kind, (of, _) in KINDS.items() if formats[0] in of.split(" or "))
+    of, draw = KINDS[kind]
+    for path, format_ in zip(options.pop("files"), formats):
+        if format_ not in of.split(" or "):
+            raise BadInput(f"{path}: a picture of the kind {kind} needs a file of the kind {of}, found eigentrail-{format_}")
+    useless = [name for name in options if name not in inspect.signature(draw).parameters]
+    if useless:
+        raise BadInput(f"--{useless[0]}: a picture of the kind {kind} has no use for it")
+    if kind != "plane" and len(data) > 1:
         raise BadInput(f"a picture of the kind {kind} shows one file, found {len(data)}; several go on the page of "
                        "eigentrail report")
-    loci, size = data[0], options.size
-    if kind == "campbell":
-        return trace_figures.campbell_picture(loci, options.harmonics, options.unit, options.log, size)
-    if kind == "root-locus":
-        return trace_figures.root_locus_picture(loci, options.unit, size)
-    if kind == "damping":
-        return trace_figures.damping_picture(loci, size)
-    if kind == "accuracy":
-        return studies.work_precision_picture(loci, size=size)
-    return shapes.shape_picture(loci, _place(loci, options.at), 1 if options.mode is None else options.mode, options.view, size)
+    return draw(*data, **options)
 
 
-def _plane(data, formats, options):
+def _plane(*data, size=None):
     """A map with a boundary, or one of them."""
-    maps = [one for one, format_ in zip(data, formats) if format_ == "eigentrail-map"]
-    boundaries = [one for one, format_ in zip(data, formats) if format_ == "eigentrail-boundary"]
-    if len(maps) > 1 or len(boundaries) > 1:
+    data = sorted(data, key=lambda one: one.attrs["format"], reverse=True)  # a map first
+    if len({one.attrs["format"] for one in data}) < len(data):
         raise BadInput("a picture of the kind plane shows one map, one boundary, or one of each")
-    if maps:
-        return planes.plane_picture(maps[0], boundaries[0] if boundaries else None, options.size)
-    return planes.plane_picture(boundaries[0], size=options.size)
+    return planes.plane_picture(*data, size=size)
 
 
-def _refuse_useless(options, kind):
-    """An option that the kind of picture does not use is a mistake."""
-    used = {"campbell": {"harmonics", "unit", "log"}, "root-locus": {"unit"}, "shape": {"mode", "at", "view"}}.get(kind, set())
-    for name, unset in (("harmonics", None), ("unit", None), ("log", False), ("mode", None), ("at", None), ("view", "3D")):
-        if getattr(options, name) != unset and name not in used:
-            raise BadInput(f"--{name}: a picture of the kind {kind} has no use for it")
+def _shape(loci, at=None, mode=1, view="3D", size=None):
+    return shapes.shape_picture(loci, _place(loci, at), mode, view, size)
+
+
+# Per kind of picture, the usual one of its files first: the files that it shows, and what draws it, with its options as keywords.
+KINDS = {"campbell": ("loci", trace_figures.campbell_picture), "root-locus": ("loci", trace_figures.root_locus_picture),
+         "damping": ("loci", trace_figures.damping_picture), "shape": ("loci", _shape), "plane": ("map or boundary", _plane),
+         "accuracy": ("accuracy", studies.work_precision_picture)}
 
 
 def _place(loci, at):
@@ -137,18 +123,15 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _parser():
-    parser = _Parser(prog="eigentrail plot", description="Draws files of eigentrail into a picture.")
+    parser = _Parser(prog="eigentrail plot", description="Draws files of eigentrail into a picture.",
+                     argument_default=argparse.SUPPRESS)
     parser.add_argument("files", nargs="+", metavar="FILE")
     parser.add_argument("-o", "--output", required=True)
     parser.add_argument("--kind", choices=KINDS)
-    parser.add_argument("--harmonics", type=_numbers)
-    parser.add_argument("--unit")
-    parser.add_argument("--mode", type=_mode)
-    parser.add_argument("--at")
-    parser.add_argument("--view", default="3D")
+    for option, of_text in (("harmonics", _numbers), ("unit", str), ("mode", _mode), ("at", str), ("view", str), ("size", _size)):
+        parser.add_argument(f"--{option}", type=of_text)
     for flag in ("--log", "--force"):
         parser.add_argument(flag, action="store_true")
-    parser.add_argument("--size", type=_size)
     return parser
 
 

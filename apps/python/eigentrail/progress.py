@@ -3,34 +3,28 @@
 import os
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, Callable, Optional, Union
 
 Progress = Union[bool, None, Callable[[float, int], Any]]
 
 
-class Bar:
-    """A bar of tqdm, where it is installed; it appears when a computation takes longer than a second."""
+@contextmanager
+def bar(wanted: Progress, what: str) -> Iterator[Optional[Callable[[float, int], Any]]]:
+    """What shows the progress: the user's function, or a bar of tqdm, where it is installed, which appears when a computation
+    takes longer than a second; else None."""
+    shown: Any = _tqdm(what) if wanted is True or (wanted is None and _watched()) else None
+    if shown is None:
+        yield wanted if callable(wanted) else None
+        return
 
-    def __init__(self, wanted: Progress, unit: str):
-        self._show = wanted if callable(wanted) else None
-        self._bar: Optional[Any] = None
-        if wanted is True or (wanted is None and _watched()):
-            self._bar = _tqdm(unit)
+    def update(share: float, count: int) -> None:
+        shown.set_postfix_str(str(count), refresh=False)
+        shown.update(max(0.0, min(1.0, share)) - shown.n)
 
-    def __enter__(self) -> Optional[Callable[[float, int], Any]]:
-        if self._show is not None:
-            return self._show
-        return None if self._bar is None else self._update
-
-    def __exit__(self, *error: Any) -> None:
-        if self._bar is not None:
-            self._bar.close()
-
-    def _update(self, share: float, count: int) -> None:
-        bar = self._bar
-        assert bar is not None
-        bar.set_postfix_str(str(count), refresh=False)
-        bar.update(max(0.0, min(1.0, share)) - bar.n)
+    with shown:
+        yield update
 
 
 def _watched() -> bool:
@@ -40,7 +34,7 @@ def _watched() -> bool:
     return "ipykernel" in sys.modules or sys.stderr.isatty()
 
 
-def _tqdm(unit: str) -> Optional[Any]:
+def _tqdm(unit: str) -> Any:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # tqdm warns of widgets that are not installed

@@ -1,13 +1,15 @@
 """Rotors of ROSS (Rotordynamic Open Source Software): their matrices as a family."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 import numpy as np
-import xarray
 
 from .errors import SceneError
 from .families import Family, Samples
+from .later import xarray
 
 FREEDOMS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", "theta")}
 AGREE = 1e-9  # largest difference, relative to the largest entry, of the state matrix here and that of ROSS
@@ -31,22 +33,23 @@ def from_ross(rotor: Any, speeds: Any = None, *, probes: Sequence[Any] = (), tit
         raise TypeError(f"rotor: expected a Rotor of ROSS, found {type(rotor).__name__}")
     names = _names(rotor, probes)
     tables = [np.asarray(table, float) for table in _tables(rotor)]
+    gyroscopic = np.asarray(rotor.G())
+    stiffening = [] if getattr(rotor, "Kst", None) is None else [np.asarray(rotor.Kst())]  # times the speed; none in most versions
+    labels: dict[str, Any] = dict(parameter="speed", unit="rad/s", names=names, title=title or _title(rotor))
+
+    def matrices(speed: float) -> tuple[Any, Any, Any]:
+        return (_mass(rotor, speed), np.asarray(rotor.C(speed)) + speed * gyroscopic,
+                np.asarray(rotor.K(speed)) + sum(speed * matrix for matrix in stiffening))
+
     if speeds is None and not tables:
-        C0, C1 = np.asarray(rotor.C(0.0)), np.asarray(rotor.G())
-        stiffness = [np.asarray(rotor.K(0.0))] + _with_speed(rotor)
-        family: Union[Family, Samples] = Family(M=_mass(rotor, 0.0), C=[C0, C1], K=stiffness, parameter="speed", unit="rad/s",
-                                                names=names, title=title or _title(rotor))
-        _compare(rotor, 100.0, C0 + 100.0 * C1, sum(100.0 ** power * matrix for power, matrix in enumerate(stiffness)))
-        return family
+        _compare(rotor, 100.0, *matrices(100.0))
+        M, C, K = matrices(0.0)
+        return Family(M=M, C=[C, gyroscopic], K=[K, *stiffening], **labels)
     at = np.unique(np.concatenate(tables)) if speeds is None else np.asarray(speeds, float)
-    gyroscopic, stiffening = np.asarray(rotor.G()), _with_speed(rotor)
-    C = np.array([np.asarray(rotor.C(speed)) + speed * gyroscopic for speed in at])
-    K = np.array([np.asarray(rotor.K(speed)) + sum(speed * matrix for matrix in stiffening) for speed in at])
-    middle = len(at) // 2
-    _compare(rotor, at[middle], C[middle], K[middle])
-    M = np.array([_mass(rotor, speed) for speed in at])
-    return Samples(at, M=M, C=C, K=K, parameter="speed", unit="rad/s", names=names,
-                   title=title or _title(rotor))
+    each = [matrices(speed) for speed in at]
+    _compare(rotor, at[len(at) // 2], *each[len(at) // 2])
+    M, C, K = map(np.array, zip(*each))
+    return Samples(at, M=M, C=C, K=K, **labels)
 
 
 def whirl(loci: xarray.Dataset) -> xarray.DataArray:
@@ -109,12 +112,8 @@ def _names(rotor: Any, probes: Sequence[Any]) -> list[str]:
 
 def _tables(rotor: Any) -> list[Any]:
     """Frequencies of the bearings and seals whose coefficients change with it."""
-    tables = []
-    for bearing in getattr(rotor, "bearing_elements", ()):
-        table = getattr(bearing, "frequency", None)
-        if table is not None and np.size(table) > 1 and _changes(bearing, table):
-            tables.append(table)
-    return tables
+    known = [(bearing, getattr(bearing, "frequency", None)) for bearing in getattr(rotor, "bearing_elements", ())]
+    return [table for bearing, table in known if table is not None and np.size(table) > 1 and _changes(bearing, table)]
 
 
 def _changes(bearing: Any, table: Any) -> bool:
@@ -123,14 +122,7 @@ def _changes(bearing: Any, table: Any) -> bool:
                for matrix in (bearing.K, bearing.C) for other in others)
 
 
-def _with_speed(rotor: Any) -> list[Any]:
-    """The matrix that ROSS multiplies with the speed and adds to K; none in most versions."""
-    matrix = getattr(rotor, "Kst", None)
-    return [] if matrix is None else [np.asarray(matrix())]
-
-
-def _compare(rotor: Any, speed: float, C: Any, K: Any) -> None:
-    M = _mass(rotor, speed)
+def _compare(rotor: Any, speed: float, M: Any, C: Any, K: Any) -> None:
     n = len(M)
     theirs = np.asarray(rotor.A(speed))[n:]
     ours = -np.linalg.solve(M, np.hstack([K, C]))
@@ -142,5 +134,4 @@ def _compare(rotor: Any, speed: float, C: Any, K: Any) -> None:
 
 
 def _title(rotor: Any) -> str:
-    tag: Optional[str] = getattr(rotor, "tag", None)
-    return str(tag) if tag else "rotor of ROSS"
+    return str(getattr(rotor, "tag", None) or "rotor of ROSS")

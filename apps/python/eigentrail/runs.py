@@ -1,20 +1,20 @@
 """The computations: traces, boundaries, maps, accuracy studies, spectra."""
 
-import os
+from __future__ import annotations
+
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-import pandas
-import xarray
 
 from . import files
 from .checked import checked
 from .engine import engine
 from .errors import SceneError, TraceError
 from .given import Attached, Given, Source, give, number, option_text, within
-from .progress import Bar, Progress
+from .later import pandas, xarray
+from .progress import Progress, bar
 
 Options = list[tuple[str, str]]
 
@@ -80,11 +80,7 @@ def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any =
     within("threads", threads, 1024)
     given = give(trace, scene, {**(settings or {}), **parameters}, tolerance, functions=True, events=events)
     chosen = _trace_options(given, options, tolerance=tolerance, modes=modes, certify=certify)
-    with Bar(progress, given.scene.title or given.scene.path) as show:
-        outcome = engine().trace(given.scene, chosen, given.function, threads, show)
-    if not outcome.file:
-        raise TraceError(f"{given.scene.path}: {outcome.message}")
-    remarks = given.warnings + outcome.remarks
+    outcome, remarks = _computed(given, progress, lambda show: engine().trace(given.scene, chosen, given.function, threads, show))
     if outcome.interrupted:
         remarks.append("interrupted: the Dataset has the points up to here")
     elif outcome.message:
@@ -116,9 +112,8 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     from_, to = (number(first, end) for end in given.ranges[first]) if first in given.ranges else (None, None)
-    with Bar(progress, given.scene.title or given.scene.path) as show:
-        outcome = engine().boundary(given.scene, second, low, high, first, from_, to, tolerance, damping_ratio, lines, show)
-    return _result(given, outcome)
+    return _result(given, progress, lambda show: engine().boundary(
+        given.scene, second, low, high, first, from_, to, tolerance, damping_ratio, lines, show))
 
 
 @checked
@@ -145,9 +140,8 @@ def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Opt
     low, high = (number(second, end) for end in given.ranges[second])
     rows, columns = (grid, grid) if isinstance(grid, int) else grid
     chosen = _trace_options(given, options, first, tolerance=tolerance)
-    with Bar(progress, given.scene.title or given.scene.path) as show:
-        outcome = engine().stability_map(given.scene, chosen, second, low, high, rows, columns, jobs, show)
-    return _result(given, outcome)
+    return _result(given, progress, lambda show: engine().stability_map(
+        given.scene, chosen, second, low, high, rows, columns, jobs, show))
 
 
 @checked
@@ -169,10 +163,8 @@ def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, ord
     """
     given = give(accuracy, scene, {**(settings or {}), **parameters})
     wanted = [10.0 ** -k for k in range(2, 13)] if tolerances is None else [float(t) for t in tolerances]
-    with Bar(progress, given.scene.title or given.scene.path) as show:
-        outcome = engine().accuracy(given.scene, _trace_options(given), wanted, list(orders), list(grids), samples, repeat,
-                                    show)
-    return _result(given, outcome)
+    return _result(given, progress, lambda show: engine().accuracy(
+        given.scene, _trace_options(given), wanted, list(orders), list(grids), samples, repeat, show))
 
 
 @checked
@@ -208,7 +200,7 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
 
 @checked
 def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapping[str, Any]] = None,
-            options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> "Explanation":
+            options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> Explanation:
     """What a scene simulates and how it will be solved: effects, structure, sizes, solvers; a text.
 
     `sensitivity` ranks the effects by their influence on each mode where the trace begins.
@@ -257,11 +249,11 @@ def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, fir
     twice = [key for key, value in options.items() if value is not None and key in (others or {})]
     if twice:
         raise SceneError(f"{twice[0]}: is a keyword, and among the options; give one of them")
-    chosen = [(key, option_text(key, value)) for key, value in {**options, **(others or {})}.items() if value is not None]
+    chosen = [(key, option_text(value)) for key, value in {**options, **(others or {})}.items() if value is not None]
     if first is None:
         return chosen
     named = [] if first == given.scene.traced else [("parameter", first)]
-    ends = [(key, option_text(key, end)) for key, end in zip(("from", "to"), given.ranges.get(first, ()))]
+    ends = [(key, option_text(end)) for key, end in zip(("from", "to"), given.ranges.get(first, ()))]
     return named + ends + chosen
 
 
@@ -287,12 +279,22 @@ def _begin(given: Given) -> float:
     raise SceneError("expected at=, the value of the parameter")
 
 
-def _result(given: Given, outcome: Any) -> xarray.Dataset:
-    _tell(given.warnings + outcome.remarks)
+def _computed(given: Given, progress: Progress, compute: Callable[[Any], Any]) -> tuple[Any, list[str]]:
+    """What the engine leaves, and what it and the scene have to say. `compute`: calls it with what shows the progress."""
+    with bar(progress, given.scene.title or given.scene.path) as show:
+        outcome = compute(show)
+    remarks = given.warnings + outcome.remarks
     if not outcome.file:
-        raise TraceError(f"{given.scene.path}: {outcome.message}")
-    if outcome.message:
-        _tell([outcome.message])
+        error = TraceError(f"{given.scene.path}: {outcome.message}")
+        for remark in remarks:
+            error.add_note(remark)
+        raise error
+    return outcome, remarks
+
+
+def _result(given: Given, progress: Progress, compute: Callable[[Any], Any]) -> xarray.Dataset:
+    outcome, remarks = _computed(given, progress, compute)
+    _tell(remarks + [outcome.message] * bool(outcome.message))
     return files.from_bytes(outcome.file)
 
 

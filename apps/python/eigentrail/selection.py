@@ -1,10 +1,12 @@
-"""Eigenvalues of a loci file at given values of its parameter, as a Dataset."""
+"""Results between their stored points, from the dense output of a loci file or a boundary file, as Datasets."""
+
+from __future__ import annotations
 
 import numpy as np
-import xarray
 
 from .engine import engine
 from .errors import SceneError
+from .later import xarray
 
 # Datasets that hold the path of a trace, beside that of the parameter.
 OF_PATH: tuple[str, ...] = ("eigenvalue", "step_length", "step_parameter", "dense_output", "dense_block", "dense_chart",
@@ -36,6 +38,27 @@ def columns_of(s, certified):
                 "damping_ratio": -s.real / np.abs(s), "certified": certified}
 
 
+def mode_names(data):
+    """Labels of modes ("mode 1"), and their names: the label where a mode has none."""
+    labels = [str(label) for label in data.mode.values]
+    names = data.mode_name.values if "mode_name" in data.coords else labels
+    return labels, [str(name or label) for name, label in zip(names, labels)]
+
+
+def mode_number(data, mode):
+    """From 0: of a mode that is given by its number from 1, its label or its name."""
+    labels, names = mode_names(data)
+    number = {**{name: i for i, name in enumerate(names)}, **{label: i for i, label in enumerate(labels)}}
+    if isinstance(mode, (int, np.integer)):
+        if not 1 <= mode <= len(labels):
+            raise SceneError(f"mode={mode}: the modes have the numbers 1 to {len(labels)}")
+        return int(mode) - 1
+    if mode not in number:
+        raise SceneError(f"mode {mode!r}: expected one of {', '.join(map(repr, dict.fromkeys(labels + names)))}, or a number from "
+                         f"1 to {len(labels)}")
+    return number[mode]
+
+
 class Selection:
     """Evaluates the dense output of a loci file at parameter values."""
 
@@ -50,11 +73,23 @@ class Selection:
         """Dataset at these values: along their dimension (none for a number), `passage` if the path turns back, and
         `mode`."""
         dimension, values = self._indexer(wanted)
-        step, s, certified = evaluated(self._path, self._loci.certified.values, values)
-        self._refuse_missing(values, step)
-        errors = {name: np.where(np.isnan(s), np.nan, self._loci[name].values[step])
-                  for name in DATA_ERRORS if name in self._loci}
-        found = self._dataset({**columns_of(s, certified), **errors}, dimension or "place", values)
+        loci, parameter = self._loci, self._parameter
+        step, s, certified = evaluated(self._path, loci.certified.values, values)
+        missing = values[step[:, 0] < 0]
+        if len(missing):
+            ends = [f"{end:.15g}" for end in (parameter.values.min(), parameter.values.max())]
+            unit = parameter.attrs["units"]
+            raise SceneError(f"{parameter.name} = {missing[0]:.15g} lies outside the traced range "
+                             f"{' ... '.join(ends)}{'' if unit == '1' else ' ' + unit}")
+        columns = columns_of(s, certified)
+        columns.update({name: np.where(np.isnan(s), np.nan, loci[name].values[step]) for name in DATA_ERRORS if name in loci})
+        along = dimension or "place"
+        words = {"long_name": "how often the path has taken the value before", "units": "1"}
+        found = xarray.Dataset(
+            {name: ((along, "passage", "mode"), column, loci[name].attrs) for name, column in columns.items()},
+            coords={parameter.name: (along, values, parameter.attrs), "passage": ("passage", np.arange(s.shape[1]), words),
+                    **{name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}},
+            attrs={"title": loci.attrs["title"]})
         if not self._path.turns_back:
             found = found.isel(passage=0, drop=True)
         return found if dimension else found.isel(place=0)
@@ -73,22 +108,20 @@ class Selection:
         dimension = None if values.ndim == 0 else wanted.dims[0] if of_its_own else self._parameter.name
         return dimension, np.atleast_1d(values)
 
-    def _refuse_missing(self, values, step):
-        missing = values[step[:, 0] < 0]
-        if len(missing):
-            name, path = self._parameter.name, self._parameter.values
-            unit = self._parameter.attrs["units"]
-            raise SceneError(f"{name} = {missing[0]:.15g} lies outside the traced range "
-                             f"{path.min():.15g} ... {path.max():.15g}{'' if unit == '1' else ' ' + unit}")
 
-    def _dataset(self, columns, dimension, values):
-        loci = self._loci
-        dims = (dimension, "passage", "mode")
-        passages = columns["eigenvalue"].shape[1]
-        labels = {name: loci[name] for name in ("mode", "mode_name") if name in loci.variables}
-        return xarray.Dataset(
-            {name: (dims, column, loci[name].attrs) for name, column in columns.items()},
-            coords={self._parameter.name: (dimension, values, self._parameter.attrs),
-                    "passage": ("passage", np.arange(passages),
-                                {"long_name": "how often the path has taken the value before", "units": "1"}), **labels},
-            attrs={"title": loci.attrs["title"]})
+def curve(boundary: xarray.Dataset, number: int, points: int) -> xarray.Dataset:
+    """Dataset of both parameters and the eigenvalue at `points` places along curve `number`.
+
+    The places are equidistant if every step counts as long as any other."""
+    steps = np.flatnonzero(boundary.step_curve.values == number)
+    if not len(steps):
+        raise SceneError(f"curve {number}: the file has {boundary.sizes['curve']} curves, counted from 0")
+    place = np.linspace(0.0, len(steps), points)
+    which = np.minimum(place.astype(int), len(steps) - 1)
+    at = steps[which]
+    first, second, mean, delta = engine().boundary_places(
+        boundary.step_length.values[at], boundary.dense_output.values[at], place - which).T
+    s = mean + np.sqrt(delta.astype(complex))
+    parameters = {name: ("point", column, boundary[name].attrs)
+                  for name, column in zip(boundary.parameter.values, (first, second))}
+    return xarray.Dataset({"eigenvalue": ("point", s, boundary.eigenvalue.attrs)}, coords=parameters)

@@ -1,20 +1,22 @@
 """Traces at many values of other parameters, on all cores."""
 
+from __future__ import annotations
+
 import itertools
 import os
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections import UserDict
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Optional
 
 import numpy as np
-import xarray
 
 from .checked import checked
-from .engine import engine
 from .errors import SceneError, TraceError
 from .given import Source, within
-from .progress import Bar, Progress
+from .later import xarray
+from .progress import Progress, bar
 from .files import read
 from .runs import Run, trace_file
 from .selection import OF_PATH, columns_of, evaluated, path_of
@@ -23,6 +25,7 @@ RUNS = "eigentrail_runs"  # key of a Dataset's encoding: the Datasets of the sin
 # Weight of the distance of loci beside modal assurance, both from 0 to 1: it decides where shapes are alike to a percent.
 TIE = 0.01
 COLUMNS = ("eigenvalue", "natural_frequency", "damped_frequency", "damping_ratio", "certified")
+NO_EIGENVALUE = complex(np.nan, np.nan)
 # What is read of a trace.
 DATASETS = (*OF_PATH, "mode_shape", "events", "event_parameter")
 
@@ -64,7 +67,7 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
         raise SceneError(f"{both[0]}: is swept, and has a value of its own; give one of them")
     places = list(itertools.product(*values.values()))
     runs = _run_all(scene, names, places, how, jobs or os.cpu_count() or 1, progress)
-    for remark in dict.fromkeys(remark for run in runs if isinstance(run, _Traced) for remark in run.run.remarks):
+    for remark in dict.fromkeys(remark for run in runs for remark in run.remarks):
         warnings.warn(remark, stacklevel=2)
     return _together(names, values, places, runs, points)
 
@@ -73,16 +76,35 @@ class _Traced:
     """A trace of a sweep, of which DATASETS are read."""
 
     def __init__(self, run: Run):
-        self.run = run
-        contents, self.attrs = read(run.image, names=DATASETS)
+        self.run, self.remarks = run, run.remarks
+        contents, attrs = read(run.image, names=DATASETS)
         self.arrays = {name: array for name, (array, _) in contents.items()}
-        self._path = path_of(self.arrays, self.attrs["parameter"])
+        self.path, self._dense = self.arrays[attrs["parameter"]], path_of(self.arrays, attrs["parameter"])
+        self.status, self.message = str(attrs["status"]), str(attrs.get("message", ""))
+        flutter = [line.startswith("flutter,") for line in self.arrays["events"]]
+        self.flutter = float(self.arrays["event_parameter"][flutter.index(True)]) if any(flutter) else np.nan
+        self.n_modes = self.arrays["eigenvalue"].shape[1]
 
-    def at(self, values: Any) -> dict[str, Any]:
+    def at(self, values: Any, n_modes: int) -> dict[str, Any]:
         """COLUMNS at values of the traced parameter, (value, mode) each: NaN where it has not been, at the first of several
         places with a value."""
-        _, s, certified = evaluated(self._path, self.arrays["certified"], values)
-        return columns_of(s[:, 0], certified[:, 0])
+        _, s, certified = evaluated(self._dense, self.arrays["certified"], values)
+        beyond = [(0, 0), (0, n_modes - self.n_modes)]
+        return columns_of(np.pad(s[:, 0], beyond, constant_values=NO_EIGENVALUE),
+                          np.pad(certified[:, 0], beyond, constant_values=-1))
+
+
+class _Failed:
+    """A trace that could not begin."""
+
+    status, flutter, arrays, remarks = "not traced", np.nan, None, ()
+
+    def __init__(self, error: TraceError):
+        self.run, self.message = error, str(error)
+
+    def at(self, values: Any, n_modes: int) -> dict[str, Any]:
+        shape = (len(values), n_modes)
+        return columns_of(np.full(shape, NO_EIGENVALUE), np.full(shape, -1))
 
 
 def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ...]], how: Mapping[str, Any],
@@ -99,10 +121,10 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             settings: Any = {**how.get("settings", {}), **dict(zip(names, place))}
             traced = trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
         except TraceError as error:
-            return error
+            return _Failed(error)
         return _Traced(traced)
 
-    with ThreadPoolExecutor(jobs) as pool, Bar(progress, "sweep") as show:
+    with ThreadPoolExecutor(jobs) as pool, bar(progress, "sweep") as show:
         futures: list[Future[Any]] = [pool.submit(run, place) for place in places]
         try:
             found = []
@@ -118,51 +140,41 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             raise
 
 
-class Runs(Mapping[tuple[Any, ...], Any]):
+class Runs(UserDict[tuple[Any, ...], Any]):
     """The Datasets of the traces by their values; a TraceError where one could not begin. Each is read when it is asked for."""
 
-    def __init__(self, places: Sequence[tuple[Any, ...]], traced: Sequence[Any]):
-        self._runs = dict(zip(places, traced))
-
     def __getitem__(self, place: tuple[Any, ...]) -> Any:
-        run = self._runs[place]
+        run = super().__getitem__(place)
         return run.loci() if isinstance(run, Run) else run
-
-    def __iter__(self) -> Iterator[tuple[Any, ...]]:
-        return iter(self._runs)
-
-    def __len__(self) -> int:
-        return len(self._runs)
 
 
 def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places: Sequence[tuple[Any, ...]],
               runs: Sequence[Any], points: Any) -> xarray.Dataset:
     traced = [run for run in runs if isinstance(run, _Traced)]
     if not traced:
-        raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0]}")
+        raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0].message}")
     loci = traced[0].run.loci()
     parameter = loci.attrs["parameter"]
     if parameter in names:
         raise SceneError(f"{parameter}: is the traced parameter; give it a range, {parameter}=(from, to), and sweep others")
-    at = _common_values([run.arrays[parameter] for run in traced], points)
-    parts = [run.at(at) if isinstance(run, _Traced) else None for run in runs]
-    n_modes = max(part["eigenvalue"].shape[1] for part in parts if part is not None)
+    at = _common_values([run.path for run in traced], points)
+    n_modes = max(run.n_modes for run in traced)
     shape = tuple(len(values[name]) for name in names)
-    order = _orders(shape, runs, parts, n_modes)
+    parts = _in_order(shape, runs, [run.at(at, n_modes) for run in runs], n_modes)
     coordinates = {name: _coordinate(name, values[name], loci) for name in names}
     coordinates[parameter] = (parameter, at, loci[parameter].attrs)
     coordinates["mode"] = ("mode", np.array([f"mode {i + 1}" for i in range(n_modes)], object))
     data = xarray.Dataset(coords=coordinates, attrs={"title": loci.attrs["title"], "parameter": parameter,
                                                      "scene": loci.attrs["scene"]})
     for column in COLUMNS:
-        whole = np.stack([_column(part, column, order[i], at.size, n_modes) for i, part in enumerate(parts)])
+        whole = np.stack([part[column] for part in parts])
         data[column] = ((*names, parameter, "mode"), whole.reshape(*shape, at.size, n_modes), loci[column].attrs)
-    for name, of_run in (("flutter", _first_flutter), ("status", _status), ("message", _message)):
-        data[name] = (names, np.array([of_run(run) for run in runs]).reshape(shape))
+    for name in ("flutter", "status", "message"):
+        data[name] = (names, np.array([getattr(run, name) for run in runs]).reshape(shape))
     data["flutter"].attrs = dict(loci[parameter].attrs, long_name="first flutter")
     data["least_damping"] = data["damping_ratio"].min([parameter, "mode"]).assign_attrs(
         long_name="least damping ratio", units="1")
-    data.encoding[RUNS] = Runs(places, [run.run if isinstance(run, _Traced) else run for run in runs])
+    data.encoding[RUNS] = Runs(zip(places, [run.run for run in runs]))
     return data
 
 
@@ -180,18 +192,20 @@ def _coordinate(name: str, values: Sequence[Any], loci: xarray.Dataset) -> tuple
             {} if texts else {"units": units.get(name, "1")})
 
 
-def _orders(shape: tuple[int, ...], runs: Sequence[Any], parts: Sequence[Any], n_modes: int) -> list[Any]:
-    """Per trace the number of its mode that is the i-th one: that which resembles the i-th one of the trace before it, along
-    the last dimension and at its start along the one before."""
+def _in_order(shape: tuple[int, ...], runs: Sequence[Any], parts: Sequence[Any], n_modes: int) -> list[Any]:
+    """The columns of each trace with its modes in another order: the i-th one resembles the i-th one of the trace before it,
+    along the last dimension and at its start along the one before."""
+    from scipy.optimize import linear_sum_assignment
+
     order: list[Any] = []
-    for i, part in enumerate(parts):
+    for i, run in enumerate(runs):
         before = _before(i, shape)
-        if before is None or parts[before] is None or part is None:
-            order.append(np.arange(n_modes))
-            continue
-        unlike = 1.0 - _assurance(runs[before], runs[i], n_modes)[order[before]]
-        order.append(_assignment(unlike + TIE * _distance(parts[before], order[before], part, n_modes)))
-    return order
+        order.append(np.arange(n_modes))
+        if before is not None and run.arrays and runs[before].arrays:
+            there, here = parts[before]["eigenvalue"][:, order[before]], parts[i]["eigenvalue"]
+            unlike = 1.0 - _assurance(runs[before], run, n_modes)[order[before]]
+            order[i] = linear_sum_assignment(unlike + TIE * _distance(there, here))[1]
+    return [{name: column[:, order[i]] for name, column in part.items()} for i, part in enumerate(parts)]
 
 
 def _before(i: int, shape: tuple[int, ...]) -> Optional[int]:
@@ -216,43 +230,10 @@ def _assurance(before: _Traced, run: _Traced, n_modes: int) -> Any:
     return result
 
 
-def _distance(before: Any, order: Any, part: Any, n_modes: int) -> Any:
-    """Mean distance of the loci, relative to the largest one."""
-    there = _column(before, "eigenvalue", order, 0, n_modes)
-    here = _column(part, "eigenvalue", np.arange(n_modes), 0, n_modes)
+def _distance(there: Any, here: Any) -> Any:
+    """Mean distance of loci (value, mode) from each other, relative to the largest one."""
     distance = np.abs(there[:, :, np.newaxis] - here[:, np.newaxis, :])
     known = np.isfinite(distance)
     mean = np.where(known, distance, 0.0).sum(0) / np.maximum(known.sum(0), 1)
     mean[~known.any(0)] = mean.max(initial=1.0)
     return mean / max(mean.max(), 1e-300)
-
-
-def _assignment(cost: Any) -> Any:
-    from scipy.optimize import linear_sum_assignment
-
-    return linear_sum_assignment(cost)[1]
-
-
-def _column(part: Any, column: str, order: Any, count: int, n_modes: int) -> Any:
-    fill: Any = {"eigenvalue": complex(np.nan, np.nan), "certified": -1}.get(column, np.nan)
-    if part is None:
-        return np.full((count, n_modes), fill)
-    values = part[column]
-    whole = np.full((values.shape[0], n_modes), fill)
-    whole[:, :values.shape[1]] = values
-    return whole[:, order]
-
-
-def _first_flutter(run: Any) -> float:
-    if not isinstance(run, _Traced):
-        return np.nan
-    flutter = [line.startswith("flutter,") for line in run.arrays["events"]]
-    return float(run.arrays["event_parameter"][flutter.index(True)]) if any(flutter) else np.nan
-
-
-def _status(run: Any) -> str:
-    return str(run.attrs["status"]) if isinstance(run, _Traced) else "not traced"
-
-
-def _message(run: Any) -> str:
-    return str(run.attrs.get("message", "")) if isinstance(run, _Traced) else str(run)

@@ -1,8 +1,12 @@
 """Events and stable ranges of a loci file as pandas tables."""
 
+from __future__ import annotations
+
 from typing import Any
 
-import pandas
+from .later import pandas
+from .selection import mode_names
+
 
 
 def events(loci: Any) -> pandas.DataFrame:
@@ -10,17 +14,10 @@ def events(loci: Any) -> pandas.DataFrame:
 
     For a sampled family, `interval_from` and `interval_to` are the parameter values between which it lies as far as the
     errors of the data tell; NaN for kinds that have no interval."""
-    parameter = loci.attrs["parameter"]
-    table = pandas.DataFrame({
-        "kind": loci.event_kind.values,
-        parameter: loci.event_parameter.values,
-        "eigenvalue": loci.event_eigenvalue.values,
-        "modes": [_mode_names(loci, text) for text in loci.event_modes.values],
-        "direction": loci.event_direction.values,
-        "value": loci.event_value.values,
-        "half_width": loci.event_half_width.values,
-        "node": loci.event_node.values,
-    }, index=pandas.Index(loci.event.values, name="event"))
+    names = ["kind", "parameter", "eigenvalue", "modes", "direction", "value", "half_width", "node"]
+    table = pandas.DataFrame({name: loci[f"event_{name}"].values for name in names}, pandas.Index(loci.event.values, name="event"))
+    table["modes"] = [_mode_names(loci, text) for text in table["modes"]]
+    table = table.rename(columns={"parameter": loci.attrs["parameter"]})
     if "event_interval" in loci:  # of a sampled family
         table["interval_from"], table["interval_to"] = loci.event_interval.values.reshape(-1, 2).T
     return table
@@ -41,7 +38,5 @@ def stable_ranges(loci: Any) -> pandas.DataFrame:
 
 def _mode_names(loci: Any, text: str) -> str:
     """Names of modes from their numbers: 'flap; lag' from '1;3'. Modes without a name have their label, 'mode 1'."""
-    labels = loci.mode.values
-    names = loci.mode_name.values if "mode_name" in loci.coords else labels
-    numbers = [int(number) - 1 for number in text.split(";") if number]
-    return "; ".join(names[i] or labels[i] for i in numbers)
+    names = mode_names(loci)[1]
+    return "; ".join(names[int(number) - 1] for number in text.split(";") if number)

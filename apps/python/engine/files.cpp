@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/hdf5_file.hpp"
+#include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "eigentrail/report/report.hpp"
 #include "eigentrail/store/output_file.hpp"
@@ -134,16 +135,23 @@ void write_files(const std::vector<std::pair<std::string, py::bytes>>& contents,
   }
 }
 
+/// Per kind of event: its mark, its name, and whether pictures write the name beside the mark.
+py::dict kinds_of_events() {
+  py::dict result;
+  for (const EventKindInfo& kind : event_kinds())
+    result[py::cast(kind.name)] = py::make_tuple(kind.symbol, kind.long_name, kind.labelled);
+  return result;
+}
+
 }  // namespace
 
 void add_files(py::module_& module) {
-  module.def("import_files", &import_files, py::arg("format"), py::arg("files"), py::arg("options"),
-             py::arg("folder"));
+  module.def("import_files", &import_files);
+  module.def("event_kinds", &kinds_of_events);
   module.def("import_formats", &formats);
-  module.def("read_file", &read_file, py::arg("image"), py::arg("called"), py::arg("names"));
-  module.def("write_files", &write_files, py::arg("contents"), py::arg("overwrite"));
-  module.def("drawing_data", &drawing_data, py::arg("loci_file"), py::arg("node"),
-             py::call_guard<py::gil_scoped_release>());
+  module.def("read_file", &read_file);
+  module.def("write_files", &write_files);
+  module.def("drawing_data", &drawing_data, py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace eigentrail::python

@@ -1,6 +1,8 @@
 // The engine for Python. The package around it, in apps/python/eigentrail, is what users see.
 #include <pybind11/pybind11.h>
 
+#include <regex>
+
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/model/function_family.hpp"
@@ -13,21 +15,11 @@ namespace {
 
 /// Options of the program are keywords here: --damping-ratio is damping_ratio, and a range has both its ends.
 std::string in_words_of_python(std::string message) {
-  for (const std::string end : {"as --from", "as --to", "as --first-from", "as --first-to"}) {
-    const std::size_t at = message.find(end);
-    if (at != std::string::npos) message.replace(at, end.size(), "as a range such as speed=(0, 400)");
-  }
-  const auto is_letter = [&](std::size_t at) {
-    return at < message.size() && message[at] >= 'a' && message[at] <= 'z';
-  };
-  for (std::size_t at = message.find("--"); at != std::string::npos; at = message.find("--", at + 1)) {
-    if (!is_letter(at + 2)) continue;
-    message.erase(at, 2);
-    for (; is_letter(at) || (message[at] == '-' && is_letter(at + 1)); ++at) {
-      if (message[at] == '-') message[at] = '_';
-    }
-  }
-  return message;
+  static const std::regex ends("as --(first-)?(from|to)"), hyphen("(--[a-z_]+)-(?=[a-z])"),
+      dashes("--(?=[a-z])");
+  message = std::regex_replace(message, ends, "as a range such as speed=(0, 400)");
+  while (std::regex_search(message, hyphen)) message = std::regex_replace(message, hyphen, "$1_");
+  return std::regex_replace(message, dashes, "");
 }
 
 /// Errors of a type of C++ become errors of a class of the package.

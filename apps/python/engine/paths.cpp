@@ -127,11 +127,11 @@ Places boundary_places(const Places& length, const Places& series, const Places&
 
 void add_paths(py::module_& module) {
   py::class_<RecordedPath>(module, "Path")
-      .def(py::init(&path_in), py::arg("datasets"), py::arg("parameter"))
+      .def(py::init(&path_in))
       .def_property_readonly("turns_back", &turns_back)
-      .def("places", &places, py::arg("values"))
-      .def("evaluate", &evaluate, py::arg("steps"), py::arg("t"));
-  module.def("boundary_places", &boundary_places, py::arg("length"), py::arg("series"), py::arg("t"));
+      .def("places", &places)
+      .def("evaluate", &evaluate);
+  module.def("boundary_places", &boundary_places);
 }
 
 }  // namespace eigentrail::python

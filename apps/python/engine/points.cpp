@@ -106,15 +106,11 @@ bool is_too_close(const std::vector<std::pair<double, double>>& ranges, const st
 }  // namespace
 
 void add_points(py::module_& module) {
-  module.def("spectrum", &spectrum, py::arg("scene"), py::arg("options"), py::arg("values"));
-  module.def("explain", &explanation, py::arg("scene"), py::arg("options"), py::arg("sensitivity"));
-  module.def("sensitivities", &sensitivities, py::arg("scene"), py::arg("options"), py::arg("value"),
-             py::arg("guess"));
-  module.def("is_too_close", &is_too_close, py::arg("ranges"), py::arg("margin"), py::arg("speed"),
-             py::arg("s"));
-  module.def(
-      "api_margin", [](Complex s, bool below) { return api_margin(amplification_factor(s), below); },
-      py::arg("s"), py::arg("below"));
+  module.def("spectrum", &spectrum);
+  module.def("explain", &explanation);
+  module.def("sensitivities", &sensitivities);
+  module.def("is_too_close", &is_too_close);
+  module.def("api_margin", [](Complex s, bool below) { return api_margin(amplification_factor(s), below); });
 }
 
 }  // namespace eigentrail::python

@@ -70,12 +70,21 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
       });
 }
 
-Outcome run_trace(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
-                  int threads, const py::object& progress) {
+/// The file that `work` computes, unless it was stopped.
+template <class Work>
+Outcome computed(const py::object& progress, Work&& work) {
   Watch watch(progress);
   Outcome outcome;
-  TraceResult result;
-  const std::string file = watched(watch, [&]() -> std::string {
+  const std::string file = watched(watch, [&]() -> std::string { return work(watch, outcome); });
+  watch.rethrow();
+  outcome.file = py::bytes(file);
+  outcome.interrupted = watch.interrupted();
+  return outcome;
+}
+
+Outcome run_trace(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
+                  int threads, const py::object& progress) {
+  return computed(progress, [&](Watch& watch, Outcome& outcome) {
     TraceSetup setup = prepare(scene, options, source, watch);
     outcome.remarks = remarks_on(setup.scene, *setup.model);
     check_parameter_name(setup.scene, setup.options.parameter);
@@ -86,25 +95,11 @@ Outcome run_trace(const Scene& scene, const Options& options, const std::optiona
       const auto& [from, to] = std::pair(setup.options.from, setup.options.to);
       return watch((checkpoint.so_far().reached - from) / (to - from), points);
     });
-    result = std::move(traced.result);
+    const TraceStatus status = traced.result.status;
+    if (status != TraceStatus::completed && status != TraceStatus::stopped)
+      outcome.message = traced.result.message;
     return std::move(traced.bytes);
   });
-  watch.rethrow();
-  outcome.file = py::bytes(file);
-  outcome.interrupted = watch.interrupted();
-  if (result.status != TraceStatus::completed && result.status != TraceStatus::stopped)
-    outcome.message = result.message;
-  return outcome;
-}
-
-/// The file that `work` computes, unless it was stopped.
-template <class Work>
-Outcome computed(const py::object& progress, Work&& work) {
-  Watch watch(progress);
-  Outcome outcome;
-  const std::string file = watched(watch, [&]() -> std::string { return work(watch, outcome); });
-  outcome.file = py::bytes(file);
-  return outcome;
 }
 
 Outcome run_boundary(const Scene& scene, const std::string& second, double from, double to,
@@ -165,19 +160,11 @@ void add_runs(py::module_& module) {
       .def_readonly("interrupted", &Outcome::interrupted)
       .def_readonly("remarks", &Outcome::remarks);
   py::class_<FunctionSource>(module, "FunctionSource")
-      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>(),
-           py::arg("call"), py::arg("tolerance"), py::arg("max_calls"), py::arg("resolution"),
-           py::arg("breaks"), py::arg("state_names"));
-  module.def("trace", &run_trace, py::arg("scene"), py::arg("options"), py::arg("function"),
-             py::arg("threads"), py::arg("progress"));
-  module.def("boundary", &run_boundary, py::arg("scene"), py::arg("second"), py::arg("second_from"),
-             py::arg("second_to"), py::arg("parameter"), py::arg("first_from"), py::arg("first_to"),
-             py::arg("tolerance"), py::arg("damping_ratio"), py::arg("lines"), py::arg("progress"));
-  module.def("stability_map", &run_map, py::arg("scene"), py::arg("options"), py::arg("second"),
-             py::arg("second_from"), py::arg("second_to"), py::arg("n_second"), py::arg("n_first"),
-             py::arg("jobs"), py::arg("progress"));
-  module.def("accuracy", &run_accuracy, py::arg("scene"), py::arg("options"), py::arg("tolerances"),
-             py::arg("orders"), py::arg("grids"), py::arg("samples"), py::arg("repeat"), py::arg("progress"));
+      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>());
+  module.def("trace", &run_trace);
+  module.def("boundary", &run_boundary);
+  module.def("stability_map", &run_map);
+  module.def("accuracy", &run_accuracy);
 }
 
 }  // namespace eigentrail::python

@@ -60,17 +60,13 @@ void add_scenes(py::module_& module) {
       .def_readonly("title", &Scene::title)
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("traced", &traced_parameter)
-      .def(
-          "with_settings",
-          [](const Scene& scene, const std::vector<std::string>& settings, const std::string& option) {
-            ChangedScene changed = with_settings(scene, settings, option);
-            return std::pair(std::move(changed.scene), std::move(changed.warnings));
-          },
-          py::arg("settings"), py::arg("option"));
-  module.def("read_scene", &read_scene, py::arg("path"));
-  module.def("parse_scene", &parse, py::arg("text"), py::arg("path"),
-             py::arg("files") = std::map<std::string, py::bytes>{},
-             py::arg("matrices") = std::map<std::string, Arrays>{}, py::arg("generated") = false);
+      .def("with_settings",
+           [](const Scene& scene, const std::vector<std::string>& settings, const std::string& option) {
+             ChangedScene changed = with_settings(scene, settings, option);
+             return std::pair(std::move(changed.scene), std::move(changed.warnings));
+           });
+  module.def("read_scene", &read_scene);
+  module.def("parse_scene", &parse);
   // What the program says of an option stays as it is: a ValueError.
   module.def("option_value", [](const std::string& option, const std::string& text, const std::string& name,
                                 const std::string& unit) {

@@ -61,8 +61,8 @@ function apiMargin(amplification, below) {
 
 /** The operating range to which most distance is wanting: { range, distance, wanted, inside, close }; null if there is none. */
 function separationOf(crossing) {
-  const { operating } = crossing.file.data.excitation || {};
-  const list = ((operating && operating.ranges) || []).map((range) => {
+  const { operating } = crossing.file;
+  const list = operating.ranges.map((range) => {
     const [from, to] = range, p = crossing.parameter, below = p < from, above = p > to;
     const distance = below ? (from - p) / from : above ? (to > 0 ? (p - to) / to : Infinity) : 0;
     const wanted = operating.margin ?? apiMargin(amplificationFactor(crossing.s), !above);
@@ -83,8 +83,8 @@ function separationText(crossing) {
 /** Strips of the parameter beside the operating ranges that critical speeds must not enter: [from, to]. */
 function marginStrips(files, crossings) {
   return files.flatMap((file) => {
-    const { operating } = file.data.excitation || {};
-    return ((operating && operating.ranges) || []).flatMap(([from, to]) => {
+    const { operating } = file;
+    return operating.ranges.flatMap(([from, to]) => {
       const widest = (isThere, below) => operating.margin ?? Math.max(0, ...crossings.filter((c) => c.file === file && isThere(c.parameter))
         .map((c) => apiMargin(amplificationFactor(c.s), below)));
       return [[from * (1 - widest((p) => p < from, true)), from], [to, to * (1 + widest((p) => p > to, false))]];

@@ -11,6 +11,16 @@ function chebyshevPlaces(degree) {
   return { places, weights };
 }
 
+/** Number of the interval between ascending places that holds a place, by bisection; the first or the last one beyond them. */
+function intervalOf(places, place) {
+  let low = 0, high = places.length - 2;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (places[middle] <= place) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
 /**
  * A piecewise polynomial (src/report/piecewise.hpp) with `width` components. The pieces lie between `knots` and have
  * the given degree. `value(i)` is the i-th of degree * pieces + 1 values.
@@ -23,18 +33,8 @@ class Piecewise {
   get to() { return this.knots[this.knots.length - 1]; }
   covers(place) { return place >= this.from && place <= this.to; }
 
-  /** Number of the piece on which a place lies, by bisection. */
-  piece(place) {
-    let low = 0, high = this.knots.length - 2;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.knots[middle] <= place) low = middle; else high = middle - 1;
-    }
-    return low;
-  }
-
   at(place) {
-    const piece = this.piece(place), begin = this.knots[piece];
+    const piece = intervalOf(this.knots, place), begin = this.knots[piece];
     const u = Math.min(Math.max((place - begin) / (this.knots[piece + 1] - begin), 0), 1);
     const first = piece * this.degree, above = new Array(this.width).fill(0);
     let below = 0;
@@ -90,9 +90,12 @@ class Path {
   }
   parameterAt(place) { return this.parameter.at(place)[0]; }
 
-  /** [Re s, Im s] of a mode at a place; null where the mode does not exist or is too large to show. */
+  /** The stretch of a mode at a place; none where the mode does not exist or is too large to show. */
+  stretchAt(mode, place) { return this.modes[mode].find((candidate) => candidate.covers(place)); }
+
+  /** [Re s, Im s] of a mode at a place; null where it has none. */
   eigenvalue(mode, place) {
-    const stretch = this.modes[mode].find((candidate) => candidate.covers(place));
+    const stretch = this.stretchAt(mode, place);
     return stretch ? stretch.at(place) : null;
   }
 
@@ -110,21 +113,7 @@ class Path {
   }
 
   /** Number of the step of the trace that holds a place. */
-  stepOf(place) {
-    let low = 0, high = this.places.length - 2;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.places[middle] <= place) low = middle; else high = middle - 1;
-    }
-    return low;
-  }
-
-  nearestNode(place) {
-    let best = 0;
-    for (let i = 1; i < this.places.length; ++i)
-      if (Math.abs(this.places[i] - place) < Math.abs(this.places[best] - place)) best = i;
-    return best;
-  }
+  stepOf(place) { return intervalOf(this.places, place); }
 }
 
 /** The zero of a monotonic function by secants and bisection in turn; null if it does not change its sign. */

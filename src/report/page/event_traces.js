@@ -27,11 +27,8 @@ function eventTraces(marks, plot, showLegend) {
   for (const mark of marks) kinds.set(mark.event.kind, [...(kinds.get(mark.event.kind) || []), mark]);
   return [...kinds].map(([kind, list]) => {
     const { symbol } = list[0].event;
-    return {
-      x: list.map(({ x }) => x), y: list.map(({ y }) => y), type: "scatter", mode: "markers", cliponaxis: true,
-      marker: { symbol, size: marks.length > 60 ? 7 : 11, color: INK, line: { width: symbol.includes("-open") ? 2 : 0.5, color: INK } },
-      name: kind, legendgroup: kind, showlegend: showLegend, hoverinfo: "skip", ...plot,
-    };
+    return pointTrace(list, { symbol, size: marks.length > 60 ? 7 : 11, color: INK, line: { width: symbol.includes("-open") ? 2 : 0.5, color: INK } },
+      { name: kind, legendgroup: kind, showlegend: showLegend, ...plot });
   });
 }
 
@@ -48,8 +45,8 @@ function crossingMarks(crossings, settings, isActive) {
 }
 
 function crossingTrace(marks, plot) {
-  return { x: marks.map(({ x }) => x), y: marks.map(({ y }) => y), type: "scatter", mode: "markers", hoverinfo: "skip", name: "critical speed", showlegend: marks.length > 0,
-    marker: { symbol: "diamond-open", size: 10, color: "#b3004b", line: { width: 2, color: "#b3004b" } }, meta: { crossings: true }, ...plot };
+  return pointTrace(marks, { symbol: "diamond-open", size: 10, color: "#b3004b", line: { width: 2, color: "#b3004b" } },
+    { name: "critical speed", showlegend: marks.length > 0, meta: { crossings: true }, ...plot });
 }
 
 /** "flutter E2", "1× E3" of a critical speed, "C2"; kinds that are not labelled have their number only. */
@@ -91,7 +88,7 @@ function rayLabels(traces, view) {
 /** Names of the operating ranges, at the top of their strips. */
 function operatingLabels(files, view) {
   const { fromX, area } = viewPixels(view);
-  const ranges = files.flatMap((file) => ((file.data.excitation || {}).operating || { ranges: [] }).ranges);
+  const ranges = files.flatMap((file) => file.operating.ranges);
   return ranges.map(([from, to]) => ({ texts: ["operating range", "operation"], colour: "#005a8c",
     middles: () => [0, 1, 2].map((row) => [Math.min(Math.max(fromX(0.5 * (from + to)), area.left + 46), area.right - 46), area.top + 9 + 15 * row]) }));
 }

@@ -88,17 +88,17 @@ function insideAxes(figure, xaxis, yaxis, [px, py]) {
   return px >= ax._offset - 1 && px <= ax._offset + ax._length + 1 && py >= ay._offset - 1 && py <= ay._offset + ay._length + 1;
 }
 
+function svgElement(tag, attributes, ...children) {
+  const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
 /** A small picture of a line with its mark, for tables. */
 function swatch(colour, symbol, dash = "solid") {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  for (const [name, value] of Object.entries({ width: 30, height: 12, viewBox: "0 0 30 12", "aria-hidden": "true" }))
-    svg.setAttribute(name, value);
-  const shape = (tag, attributes) => {
-    const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
-    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-    svg.append(node);
-  };
-  shape("line", { x1: 0, x2: 30, y1: 6, y2: 6, stroke: colour, "stroke-width": 2, ...(dash === "solid" ? {} : { "stroke-dasharray": dash.replaceAll("px", "") }) });
+  const dashes = dash === "solid" ? {} : { "stroke-dasharray": dash.replaceAll("px", "") };
+  const line = svgElement("line", { x1: 0, x2: 30, y1: 6, y2: 6, stroke: colour, "stroke-width": 2, ...dashes });
   const paths = {
     circle: "M10.5 6a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0", square: "M11 2h8v8h-8z", diamond: "M15 1l5 5l-5 5l-5 -5z",
     "triangle-up": "M15 1l5 9h-10z", "triangle-down": "M15 11l5 -9h-10z", cross: "M13.5 1h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5z",
@@ -106,20 +106,14 @@ function swatch(colour, symbol, dash = "solid") {
     star: "M15 0.5l1.6 3.7l4 .3l-3 2.6l1 3.9l-3.6 -2.1l-3.6 2.1l1 -3.9l-3 -2.6l4 -.3z",
     pentagon: "M15 1l5 4l-2 6h-6l-2 -6z", hexagram: "M15 0.5l1.6 2.8h3.4l-1.8 2.7l1.8 2.7h-3.4l-1.6 2.8l-1.6 -2.8h-3.4l1.8 -2.7l-1.8 -2.7h3.4z",
   };
-  if (symbol) shape("path", { d: paths[symbol], fill: colour });
-  return svg;
+  const mark = symbol ? [svgElement("path", { d: paths[symbol], fill: colour })] : [];
+  return svgElement("svg", { width: 30, height: 12, viewBox: "0 0 30 12", "aria-hidden": "true" }, line, ...mark);
 }
 
 /** A broad translucent band along a line given by pixels "x,y x,y", cut at the axes of the figure. */
 function overlayLine(figure, points, colour) {
-  const make = (tag, attributes, ...children) => {
-    const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
-    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-    node.append(...children);
-    return node;
-  };
   const { xaxis, yaxis, yaxis2 } = figure._fullLayout, lowest = yaxis2 || yaxis;
   const left = xaxis._offset, top = yaxis._offset, width = xaxis._length, height = lowest._offset + lowest._length - top;
-  return make("svg", { class: "overlay-line", style: `left:${left}px;top:${top}px`, width, height, viewBox: `${left} ${top} ${width} ${height}`, "aria-hidden": "true" },
-    make("polyline", { points, fill: "none", stroke: colour, "stroke-width": 8, "stroke-opacity": 0.3, "stroke-linejoin": "round" }));
+  return svgElement("svg", { class: "overlay-line", style: `left:${left}px;top:${top}px`, width, height, viewBox: `${left} ${top} ${width} ${height}`, "aria-hidden": "true" },
+    svgElement("polyline", { points, fill: "none", stroke: colour, "stroke-width": 8, "stroke-opacity": 0.3, "stroke-linejoin": "round" }));
 }

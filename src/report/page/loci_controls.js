@@ -50,8 +50,7 @@ function lociKey(view) {
   const { files, settings, style } = view, several = files.length > 1;
   const has = (test) => files.some(test);
   const ranges = (kind, whole = true) => has((file) => (file.data.ranges || []).some((range) => range.kind === kind && range.whole === whole));
-  const operates = has((file) => file.data.excitation && file.data.excitation.operating.ranges.length);
-  const margin = operates && files.find((file) => file.data.excitation && file.data.excitation.operating.ranges.length).data.excitation.operating.margin;
+  const operates = files.find((file) => file.operating.ranges.length), margin = operates && operates.operating.margin;
   const item = (kind, text) => element("span", {}, element("i", { class: kind }), text);
   const entries = [
     ...(several ? files.map((file) => element("span", {}, swatch(file.colour, style(file, 0).symbol), file.data.name)) : []),

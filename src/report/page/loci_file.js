@@ -14,6 +14,8 @@ class LociFile {
     this.reference = Number(data.attributes.reference) || 0;
     this.whirl = data.whirl && { measure: float32(data.whirl.measure), reverse: float32(data.whirl.reverse) };
   }
+  /** Operating ranges in the unit of the parameter, and the separation margin; null: that of API 684. */
+  get operating() { return (this.data.excitation || {}).operating || { ranges: [], margin: null }; }
   modeText(mode) {
     const { label, name } = this.data.modes[mode] || { label: `mode ${mode + 1}` };
     return name ? `${label}, ${mainMotion(name)}` : label;
@@ -42,7 +44,7 @@ class LociFile {
 
   /** Whether a mode has no frequency at a place, or does not exist there. */
   isReal(mode, place) {
-    const stretch = this.path.modes[mode].find((candidate) => candidate.covers(place));
+    const stretch = this.path.stretchAt(mode, place);
     return !stretch || stretch.isReal(stretch.at(place));
   }
 

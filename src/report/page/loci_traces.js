@@ -76,6 +76,10 @@ function runsOf(parts, hidesReal) {
 const lineTrace = (lines, line, more = {}) =>
   ({ ...joined(lines), type: "scatter", mode: "lines", line, hoverinfo: "skip", showlegend: false, ...more });
 
+/** A trace of marks at points { x, y }. */
+const pointTrace = (points, marker, more = {}) =>
+  ({ x: points.map(({ x }) => x), y: points.map(({ y }) => y), type: "scatter", mode: "markers", marker, hoverinfo: "skip", showlegend: false, ...more });
+
 const pointsOf = (lines, test) => lines.flatMap((line) => line.parts.filter(test).map((part) => part.points));
 const isDoubtful = ({ kind }) => kind.includes("d");
 const isBackward = ({ kind }) => kind.includes("b");
@@ -151,17 +155,13 @@ function intervalTrace(files, chart, settings, isActive, axes) {
 
 /** A few marks on every line, by which lines can be distinguished without colours. */
 function markTrace(lines, isActive, style, axes) {
-  const x = [], y = [], symbol = [], color = [], active = lines.filter(isActive), many = active.length > MOST_MARKED;
-  for (const line of active) {
-    const project = CHARTS[axes.chart].project(line.file, axes.settings), { colour, symbol: mark } = style(line.file, line.mode);
-    const from = line.points[0].place, to = line.points[line.points.length - 1].place, n = many ? 2 : 5;
-    for (let i = 0; i < n; ++i) {
-      const place = from + (to - from) * ((i + 0.5 + 0.13 * ((line.mode * 3 + line.file.index) % 5 - 2)) / n);
-      const [px, py] = project(place, line.stretch.at(place));
-      x.push(px); y.push(py); symbol.push(mark); color.push(colour);
-    }
-  }
-  return { x, y, type: "scatter", mode: "markers", marker: { symbol, color, size: many ? 6 : 7 }, hoverinfo: "skip", showlegend: false, meta: { marks: true }, ...axes.plot };
+  const active = lines.filter(isActive), n = active.length > MOST_MARKED ? 2 : 5;
+  const marks = active.flatMap((line) => {
+    const point = pointOn(line.stretch, CHARTS[axes.chart].project(line.file, axes.settings)), look = style(line.file, line.mode);
+    const from = line.points[0].place, to = line.points[line.points.length - 1].place;
+    return Array.from({ length: n }, (_, i) => ({ ...look, ...point(from + (to - from) * ((i + 0.5 + 0.13 * ((line.mode * 3 + line.file.index) % 5 - 2)) / n)) }));
+  });
+  return pointTrace(marks, { symbol: marks.map(({ symbol }) => symbol), color: marks.map(({ colour }) => colour), size: n === 2 ? 6 : 7 }, { meta: { marks: true }, ...axes.plot });
 }
 
 const RANGE_COLOURS = { stable: "rgba(0,158,115,0.13)", marginal: "rgba(230,159,0,0.16)", undecided: "rgba(110,110,110,0.16)" };
@@ -201,7 +201,7 @@ function rayTraces(files, settings) {
 /** Operating ranges (between lines) and the strips beside them that critical speeds must not enter, in the frequency chart. */
 function operatingShapes(files, crossings) {
   const strip = ([x0, x1], fillcolor, line) => ({ type: "rect", xref: "x", yref: "y domain", x0, x1, y0: 0, y1: 1, fillcolor, line, layer: "below" });
-  const ranges = files.flatMap((file) => ((file.data.excitation || {}).operating || { ranges: [] }).ranges);
+  const ranges = files.flatMap((file) => file.operating.ranges);
   return [...ranges.map((range) => strip(range, OPERATING_FILL, { color: "#0072b2", width: 1.2 })),
     ...marginStrips(files, crossings).filter(([from, to]) => to > from).map((range) => strip(range, MARGIN_FILL, { width: 0 }))];
 }
@@ -252,10 +252,7 @@ const endPoints = (lines, isActive) => lines.filter(isActive).flatMap(({ points 
 
 /** The beginning (a ring) and the end (a dot) of every line, which show its direction. */
 function endTraces(lines, isActive) {
-  const shown = lines.filter(isActive);
-  const marks = (pick, symbol) => ({
-    x: shown.map((line) => pick(line).x), y: shown.map((line) => pick(line).y), type: "scatter", mode: "markers", hoverinfo: "skip",
-    showlegend: false, marker: { symbol, size: shown.length > 40 ? 4 : 7, color: INK, line: { width: shown.length > 40 ? 1 : 1.5, color: INK } },
-  });
-  return [marks((line) => line.points[0], "circle-open"), marks((line) => line.points[line.points.length - 1], "circle")];
+  const shown = lines.filter(isActive), many = shown.length > 40;
+  return [[0, "circle-open"], [-1, "circle"]].map(([end, symbol]) => pointTrace(shown.map(({ points }) => points.at(end)),
+    { symbol, size: many ? 4 : 7, color: INK, line: { width: many ? 1 : 1.5, color: INK } }));
 }

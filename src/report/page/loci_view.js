@@ -134,15 +134,14 @@ class LociView extends LociCharts {
     const places = file.path.placesOf(event.parameter);
     const node = event.node >= 0 && event.node < file.path.places.length ? file.path.places[event.node] : 0;
     const place = places.length ? places.reduce((a, b) => (Math.abs(b - node) < Math.abs(a - node) ? b : a)) : node;
-    this.isolated = new Set(event.modes.map((mode) => `${file.index}/${mode}`));
-    this.moveTo(file, place, event.modes[0] ?? 0);
-    this.draw();
-    this.campbell.scrollIntoView({ block: "nearest" });
+    this.isolate(file, event.modes, place);
   }
 
-  showCrossing({ file, mode, place }) {
-    this.isolated = new Set([`${file.index}/${mode}`]);
-    this.moveTo(file, place, mode);
+  showCrossing({ file, mode, place }) { this.isolate(file, [mode], place); }
+
+  isolate(file, modes, place) {
+    this.isolated = new Set(modes.map((mode) => `${file.index}/${mode}`));
+    this.moveTo(file, place, modes[0] ?? 0);
     this.draw();
     this.campbell.scrollIntoView({ block: "nearest" });
   }

@@ -5,10 +5,11 @@ are imported when a figure is drawn.
 """
 
 from importlib import import_module
-from typing import Any, Optional, Sequence, Union
+from typing import Any, Mapping, Optional, Sequence, Union
 
 import xarray
 
+from . import planes, shapes, studies, trace_figures
 from ..errors import SceneError
 from .picture import Picture
 
@@ -29,13 +30,26 @@ class Figures:
     `size`: width and height in inches.
     """
 
-    _data: xarray.Dataset
+    def __init__(self, data: xarray.Dataset):
+        self._data = data
+
+    @property
+    def parameter(self) -> str:
+        """Name of the traced parameter."""
+        return self._of("loci").attrs["parameter"]
 
     def _of(self, kind: str) -> xarray.Dataset:
-        raise NotImplementedError  # of the accessor
+        found = self._data.attrs.get("format")
+        if found != f"eigentrail-{kind}":
+            raise SceneError(f"only {kind} files have this; the Dataset is of the format {found!r}")
+        return self._data
 
-    def _wanted(self, at: Any) -> Any:
-        raise NotImplementedError  # of the accessor
+    def _wanted(self, at: Mapping[str, Any]) -> Any:
+        """The value of the only keyword, which must be the name of the parameter."""
+        if list(at) != [self.parameter]:
+            found = ", ".join(f"{name}=..." for name in at) or "nothing"
+            raise TypeError(f"expected the traced parameter, {self.parameter}=..., found {found}")
+        return at[self.parameter]
 
     def campbell(self, harmonics: Optional[Sequence[float]] = None, unit: Optional[str] = None, backend: str = "plotly",
                  log: bool = False, size: Size = None) -> Any:
@@ -44,18 +58,15 @@ class Figures:
         `harmonics`: multiples of the excitation frequency to draw as rays; by default those of the scene, an empty list for
         none. The axis then ends at the highest ray. `unit` of the frequency: rad/s, Hz, rpm, rev/s, deg/s; by default that of
         the parameter if it is an angular velocity, else Hz. `log`: logarithmic frequency."""
-        from .trace_figures import campbell_picture
-        return drawn(campbell_picture(self._of("loci"), harmonics, unit, log, size), backend)
+        return drawn(trace_figures.campbell_picture(self._of("loci"), harmonics, unit, log, size), backend)
 
     def root_locus(self, unit: Optional[str] = None, backend: str = "plotly", size: Size = None) -> Any:
         """Im s (in `unit`) over Re s (1/s); a ring where a mode begins, a dot where it ends."""
-        from .trace_figures import root_locus_picture
-        return drawn(root_locus_picture(self._of("loci"), unit, size), backend)
+        return drawn(trace_figures.root_locus_picture(self._of("loci"), unit, size), backend)
 
     def damping(self, backend: str = "plotly", size: Size = None) -> Any:
         """Damping ratio (percent) of oscillating modes over the parameter."""
-        from .trace_figures import damping_picture
-        return drawn(damping_picture(self._of("loci"), size), backend)
+        return drawn(trace_figures.damping_picture(self._of("loci"), size), backend)
 
     def mode_shape(self, mode: Union[int, str], view: str = "3D", backend: str = "plotly", size: Size = None,
                    **at: float) -> Any:
@@ -64,18 +75,15 @@ class Figures:
         `mode`: number from 1, label or name. Scenes of points and bodies are drawn as on the report page, displaced where the
         largest component is real, with the orbits of points; `view`: "3D", "xy", "xz", "yz". Rotors whose nodes lie on a
         straight line are drawn as their bent axis, families of matrices as bars."""
-        from .shapes import shape_picture
-        return drawn(shape_picture(self._of("loci"), self._wanted(at), mode, view, size), backend)
+        return drawn(shapes.shape_picture(self._of("loci"), self._wanted(at), mode, view, size), backend)
 
     def plane(self, boundary: Optional[xarray.Dataset] = None, backend: str = "plotly", size: Size = None) -> Any:
         """The plane of two parameters: the cells of a map file by their growing modes, with the located events on its lines;
         the curves of a boundary file. `boundary`: Dataset of a boundary file to draw on a map."""
-        from .planes import plane_picture
         data = self._data if self._data.attrs.get("format") == "eigentrail-boundary" else self._of("map")
-        return drawn(plane_picture(data, boundary, size), backend)
+        return drawn(planes.plane_picture(data, boundary, size), backend)
 
     def work_precision(self, work: str = "wall_time", backend: str = "plotly", size: Size = None) -> Any:
         """Largest relative error over the work of all runs of an accuracy study. `work`: wall_time (s), factorizations or
         points."""
-        from .studies import work_precision_picture
-        return drawn(work_precision_picture(self._of("accuracy"), work, size), backend)
+        return drawn(studies.work_precision_picture(self._of("accuracy"), work, size), backend)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..errors import SceneError
-from ..selection import path_of
+from ..selection import DATA_ERRORS, path_of
 from .style import SAME_AS_ZERO
 
 FIRST_PLACES = 5       # of each step before it is refined
@@ -28,7 +28,6 @@ class Curves:
             raise SceneError("the trace has no steps: there are no curves to draw")
         self._loci = loci
         self._path = path_of(loci, loci.attrs["parameter"])
-        self.turns_back = self._path.turns_back
         self._refine()
 
     def eigenvalues(self, step, t):
@@ -46,12 +45,10 @@ class Curves:
             style[self._whirl(mode)[1:] < -ROUND] = DOTTED
         return style
 
-    def errors(self, mode):
-        """Bounds (n) of the errors of the eigenvalue that come from the data, 1/s; None if the file has none."""
-        names = [name for name in ("interpolation_error", "digits_error") if name in self._loci]
-        if not names:
-            return None
-        return sum(np.nan_to_num(self._loci[name].values[self.step, mode]) for name in names)
+    def errors(self):
+        """Bounds (n, mode) of the errors of the eigenvalues that come from the data, 1/s; None if the file has none."""
+        names = [name for name in DATA_ERRORS if name in self._loci]
+        return sum(np.nan_to_num(self._loci[name].values[self.step]) for name in names) if names else None
 
     def crossings(self, modes, excess):
         """Places where `excess(parameter, s)` of one of the modes passes through zero, mode by mode: the mode, the parameter
@@ -126,13 +123,13 @@ def without_rounding(s):
 
 
 def oscillates(s):
-    """Whether eigenvalues (n) belong to complex pairs."""
+    """Whether eigenvalues belong to complex pairs."""
     with np.errstate(invalid="ignore"):
         return np.abs(s.imag) > SAME_AS_ZERO * np.abs(s)
 
 
 def with_ends(mask):
-    """The places of a mask (n) and those next to them, so that lines reach the place where a pair becomes real."""
+    """The places of a mask (n, ...) and those next to them, so that lines reach the place where a pair becomes real."""
     grown = mask.copy()
     grown[1:] |= mask[:-1]
     grown[:-1] |= mask[1:]
@@ -148,17 +145,14 @@ def damping_percent(s):
 def parts(x, y, styles, style):
     """The lines x, y (n) where the styles (n - 1) have this value: arrays with NaN between the parts."""
     joined = (styles == style) & np.isfinite(x[1:]) & np.isfinite(x[:-1]) & np.isfinite(y[1:]) & np.isfinite(y[:-1])
-    if not joined.any():
-        return np.empty(0), np.empty(0)
-    pieces, start = [], None
-    for i, on in enumerate(np.append(joined, False)):
-        if on and start is None:
-            start = i
-        elif not on and start is not None:
-            pieces.append(slice(start, i + 1))
-            start = None
     gap = [np.nan]
-    return tuple(np.concatenate([part for piece in pieces for part in (values[piece], gap)])[:-1] for values in (x, y))
+    return tuple(np.concatenate([gap, *(part for begin, end in runs(joined) for part in (values[begin:end + 1], gap))])[1:-1]
+                 for values in (x, y))
+
+
+def runs(mask):
+    """Where the parts of a mask (n) begin, and the places behind their ends: (k, 2)."""
+    return np.flatnonzero(np.diff(mask, prepend=False, append=False)).reshape(-1, 2)
 
 
 def usual_range(values):

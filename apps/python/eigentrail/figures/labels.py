@@ -53,55 +53,53 @@ class Room:
         return int(np.sum((y > bottom) & (y < top)))
 
     def beside(self, x, y, text, size, distance, colour="#1a1a1a"):
-        """A label on the side of a place (data coordinates) that covers least; None where all sides are taken."""
+        """Puts a label on the side of a place (data coordinates) that covers least; whether a side was free."""
         px, py = self._panel.place(x, y)
         if not (np.isfinite(px) and np.isfinite(py)):
-            return None
+            return False
         width, height = text_width(text, size) + GAP, HEIGHT * size
-        best = None
+        found = []
         for align, dx, dy in SIDES:
             left = px + (dx * distance if dx else -width / 2) - (width if align == "right" else 0)
             bottom = py + dy * (distance + height / 2 if not dx else 0.6 * height) - height / 2
             box = (left, left + width, bottom, bottom + height)
-            if not self.free(box):
-                continue
-            cost = self.covered(box)
-            if best is None or cost < best[0]:
-                best = (cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py,
-                                         halo=cost > 0))
-        if best is None:
-            return None
-        self.take(best[1])
-        return best[2]
+            if self.free(box):
+                cost = self.covered(box)
+                found.append((cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py,
+                                               halo=cost > 0)))
+        return self._put_best(found)
+
+    def _put_best(self, found):
+        """Puts the first one of those labels (cost, box, label) that cost least; whether there is one."""
+        for _, box, label in sorted(found, key=lambda one: one[0])[:1]:
+            self.take(box)
+            self._panel.items.append(label)
+        return bool(found)
 
     def on_line(self, xs, ys, text, size, colour, most=2):
-        """Labels on the best of these places of a line (data coordinates), far from each other; none where all are taken."""
+        """Puts labels on the best of these places of a line (data coordinates), far from each other; whether one was free."""
         width, height = text_width(text, size) + 1, HEIGHT * size
         px, py = self._panel.place(xs, ys)
         boxes = np.column_stack([px - width / 2, px + width / 2, py - height / 2, py + height / 2])
-        labels, places = [], []
+        places = []
         for at in sorted(np.flatnonzero([self.free(box) for box in boxes]), key=lambda at: self.covered(boxes[at])):
-            if len(labels) < most and all(np.hypot(px[at] - a, py[at] - b) > self._panel.points[0] / 3 for a, b in places):
+            if len(places) < most and all(np.hypot(px[at] - a, py[at] - b) > self._panel.points[0] / 3 for a, b in places):
                 self.take(boxes[at])
                 places.append((px[at], py[at]))
-                labels.append(Label(xs[at], ys[at], text, colour, size, "center", boxed=True))
-        return labels
+                self._panel.items.append(Label(xs[at], ys[at], text, colour, size, "center", boxed=True))
+        return bool(places)
 
     def at_end(self, xs, ys, text, size, colour):
-        """A label left above a line that ends at the last place, as near to the end as the text covers no other line."""
+        """Puts a label left above a line that ends at the last place, as near to the end as the text covers no other line."""
         px, py = self._panel.place(xs, ys)
         width, height = text_width(text, size), HEIGHT * size
-        best = None
+        found = []
         for at in range(len(px) - 1, int(0.5 * len(px)), -1):
             box = (px[at] - 4 - width, px[at] - 4, py[at] + 1, py[at] + 1 + height)
-            if self.free(box) and (best is None or self.covered(box) < best[0]):
-                best = (self.covered(box), at, box)
-                if best[0] == 0:
-                    break
-        if best is None:
-            return None
-        self.take(best[2])
-        return Label(xs[best[1]], ys[best[1]], text, colour, size, "right", -4, 1 + height / 2, halo=best[0] > 0)
+            if self.free(box):
+                cost = self.covered(box)
+                found.append((cost, box, Label(xs[at], ys[at], text, colour, size, "right", -4, 1 + height / 2, halo=cost > 0)))
+        self._put_best(found)
 
 
 def _along(x, y):

@@ -3,10 +3,11 @@
 import numpy as np
 
 from ..errors import SceneError
-from .curves import DASHED, DOTTED, SOLID, Curves, parts, without_rounding
+from ..selection import mode_names
+from .curves import DASHED, DOTTED, SOLID, Curves, damping_percent, oscillates, parts, runs, with_ends, without_rounding
 from .labels import HEIGHT, Room, spread, text_width
 from .picture import Area, Axis, Label, Line, Marks, Picture, Span
-from .style import (ANGULAR, EVENTS, FAINT, GREY, INK, OTHER_EVENT, PARTIAL_RANGE, RANGES, TOO_CLOSE, WARNING, mode_colour,
+from .style import (ANGULAR, FAINT, GREY, INK, OTHER_EVENT, PARTIAL_RANGE, RANGES, TOO_CLOSE, WARNING, event_kinds, mode_colour,
                     mode_symbol, number, with_unit)
 
 MOST_NAMED = 14        # modes with their names at the ends of the lines; more have numbers on the lines
@@ -26,7 +27,12 @@ TITLE, LEGEND_ROW = 0.22, 0.185
 
 
 class LociFigure:
-    """What the figures of a trace have in common."""
+    """What the figures of a trace have in common.
+
+    What they draw of modes are arrays x (n) or (n, mode) and y (n, mode) at all places of the curves, NaN where nothing is drawn:
+    `s`; of oscillations, and to the places next to them, `frequency` (in `unit`) and `damping` (percent). `damping_per_error`:
+    change of the latter per change of s.
+    """
 
     def __init__(self, loci, unit=None):
         self.loci = loci
@@ -37,29 +43,29 @@ class LociFigure:
             raise SceneError(f"unit={unit!r}: expected a unit of frequency: {', '.join(ANGULAR)}")
         self.factor = ANGULAR[self.unit]
         self.curves = Curves(loci)
-        self.modes = [mode for mode in range(loci.sizes["mode"]) if np.isfinite(self.curves.s[:, mode]).any()]
-        values = self.curves.parameter
-        self.range = (float(values.min()), float(values.max()))
+        self.labels, self.names = mode_names(loci)
+        self.s, self.p = self.curves.s, self.curves.parameter
+        self.modes = list(np.flatnonzero(np.isfinite(self.s).any(axis=0)))
+        self.range = (float(self.p.min()), float(self.p.max()))
+        shown = with_ends(oscillates(self.s)) & np.isfinite(self.s)
+        self.frequency = np.where(shown, np.abs(self.s.imag) / self.factor, np.nan)
+        self.damping = np.where(shown, damping_percent(self.s), np.nan)
+        with np.errstate(divide="ignore"):
+            self.damping_per_error = 100 / np.abs(self.s)
         self.legend = {}
 
     # Modes.
 
-    def name(self, mode):
-        """Name of a mode, or "mode 3"."""
-        names = self.loci.mode_name.values if "mode_name" in self.loci.coords else self.loci.mode.values
-        return str(names[mode] or self.loci.mode.values[mode])
-
     def short_name(self, mode):
         """The name with the number, cut where it is long."""
-        name = self.name(mode)
-        text = name if name == str(self.loci.mode.values[mode]) else f"{mode + 1} {name}"
+        name = self.names[mode]
+        text = name if name == self.labels[mode] else f"{mode + 1} {name}"
         return text if len(text) <= LONGEST_NAME else text[:LONGEST_NAME - 1] + "\u2026"
 
-    def add_modes(self, panel, modes, x, y, shown):
-        """Lines of modes: x, y and shown map a mode to values (n) of all places."""
+    def add_modes(self, panel, modes, x, y):
+        """Lines of modes."""
         for mode in modes:
-            keep = shown(mode)
-            across, up = x(mode), np.where(keep, y(mode), np.nan)
+            across, up = _column(x, mode), y[:, mode]
             styles = self.curves.styles(mode)
             for style, dash in DASH.items():
                 line = parts(across, up, styles, style)
@@ -73,114 +79,95 @@ class LociFigure:
 
     def add_marks_on(self, panel, mode, x, y):
         """A few marks on a line, by which lines can be distinguished without colours."""
-        px, py = panel.place(x, y)
-        inside = np.flatnonzero(np.isfinite(px) & np.isfinite(py) & (px >= 0) & (px <= panel.points[0]) & (py >= 0)
-                                & (py <= panel.points[1]))
+        inside, px, py = panel.seen(x, y)
         if len(inside) < 2:
             return
-        along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px[inside]), np.diff(py[inside])))])
+        along = _lengths(px, py)
         shift = 0.13 * ((mode * 3) % 5 - 2)
         wanted = along[-1] * (np.arange(MARKS_PER_LINE) + 0.5 + shift) / MARKS_PER_LINE
         at = inside[np.unique(np.abs(along[:, np.newaxis] - wanted).argmin(axis=0))]
         panel.items.append(Marks(x[at], y[at], mode_symbol(mode), mode_colour(mode), 5.0, f"marks of mode {mode + 1}"))
 
-    def add_bands(self, panel, modes, value, error, shown):
-        """Bands in which values lie as far as the errors of the data tell."""
+    def add_bands(self, panel, modes, y, per_error):
+        """Bands in which values lie as far as the errors of the data tell: the error of s times `per_error`."""
+        errors = self.curves.errors()
+        if errors is None:
+            return
+        with np.errstate(invalid="ignore"):
+            half = errors * per_error
         for mode in modes:
-            bound = self.curves.errors(mode)
-            if bound is None:
-                return
-            keep = shown(mode) & np.isfinite(value(mode))
-            edges = np.flatnonzero(np.diff(np.concatenate([[0], keep.astype(int), [0]])))
-            for begin, end in edges.reshape(-1, 2):
+            for begin, end in runs(np.isfinite(y[:, mode])):
                 if end - begin < 2:
                     continue
-                p, middle = self.curves.parameter[begin:end], value(mode)[begin:end]
-                half = (bound * error(mode) * np.ones(len(bound)))[begin:end]
-                panel.items.append(Area(np.concatenate([p, p[::-1]]), np.concatenate([middle + half, (middle - half)[::-1]]),
+                p, (low, high) = self.p[begin:end], (y[begin:end, mode] + sign * half[begin:end, mode] for sign in (-1, 1))
+                panel.items.append(Area(np.concatenate([p, p[::-1]]), np.concatenate([high, low[::-1]]),
                                         mode_colour(mode), 0.16, f"error of mode {mode + 1}"))
             self.explain(Area([], [], GREY, 0.3, legend=ERROR_WORDS))
 
-    def add_end_names(self, panel, room, modes, x, y, shown):
+    def add_end_names(self, panel, room, modes, x, y):
         """Names of modes: in the margin where a line ends at the right edge, else beside its last place in the window."""
         right, top = panel.points
-        ends, inner = [], []
+        ends = []
         for mode in modes:
-            px, py = panel.place(x(mode), np.where(shown(mode), y(mode), np.nan))
-            with np.errstate(invalid="ignore"):
-                inside = (py >= -1) & (py <= top + 1) & (px >= -1) & (px <= right + 1)
-            if inside.any():
-                at = np.flatnonzero(inside)[np.argmax(px[inside])]
-                (ends if px[at] > 0.97 * right else inner).append((mode, px[at], py[at]))
-        for mode, _, _ in inner:
-            self._add_inner_name(panel, room, mode, *panel.place(x(mode), np.where(shown(mode), y(mode), np.nan)))
+            _, px, py = panel.seen(_column(x, mode), y[:, mode], slack=1)
+            last = px.argmax() if len(px) else None
+            if last is not None and px[last] > 0.97 * right:
+                ends.append((mode, px[last], py[last]))
+            elif last is not None:
+                self._add_inner_name(panel, room, mode, _column(x, mode), y[:, mode])
         heights = spread([py for _, _, py in ends], HEIGHT * NAME, 0.0, top)
         for (mode, px, py), height in zip(ends, heights):
-            place = (panel.x.value(1.0), panel.y.value(height / top))
-            panel.items.append(Line([panel.x.value(px / right), panel.x.value(1 + 7 / right)],
-                                    [panel.y.value(py / top), place[1]], mode_colour(mode), 0.6, name="leader", clip=False))
-            panel.items.append(Label(*place, self.short_name(mode), mode_colour(mode), NAME, "left", 9))
+            leader = panel.at(np.array([px, right + 7]), np.array([py, height]))
+            panel.items.append(Line(*leader, mode_colour(mode), 0.6, name="leader", clip=False))
+            panel.items.append(Label(*panel.at(right, height), self.short_name(mode), mode_colour(mode), NAME, "left", 9))
 
-    def _add_inner_name(self, panel, room, mode, px, py):
-        """The name beside the last place of a line (points) in the window at which there is room."""
-        right, top = panel.points
-        with np.errstate(invalid="ignore"):
-            inside = np.flatnonzero((px >= 0) & (px <= right) & (py >= 0) & (py <= top))
-        if not len(inside):
+    def _add_inner_name(self, panel, room, mode, x, y):
+        """The name beside the last place of a line in the window at which there is room."""
+        _, px, py = panel.seen(x, y)
+        if not len(px):
             return
-        order = inside if px[inside[-1]] >= px[inside[0]] else inside[::-1]  # so that the last place is on the right
-        px, py = px[order], py[order]
-        along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
+        order = 1 if px[-1] >= px[0] else -1  # so that the last place is on the right
+        px, py = px[::order], py[::order]
+        along = _lengths(px, py)
         for place in np.arange(along[-1], 0.3 * along[-1] - 1e-9, -max(HEIGHT * NAME, 0.02 * along[-1])):
-            x, y = (panel.x.value(np.interp(place, along, px) / right), panel.y.value(np.interp(place, along, py) / top))
-            label = room.beside(x, y, self.short_name(mode), NAME, 4, mode_colour(mode))
-            if label:
-                panel.items.append(label)
+            at = panel.at(np.interp(place, along, px), np.interp(place, along, py))
+            if room.beside(*at, self.short_name(mode), NAME, 4, mode_colour(mode)):
                 return
 
-    def add_numbers(self, panel, room, modes, x, y, shown):
+    def add_numbers(self, panel, room, modes, x, y):
         """Numbers of modes on their lines, where there is room."""
-        right, top = panel.points
         for i, mode in enumerate(modes):
-            px, py = panel.place(x(mode), np.where(shown(mode), y(mode), np.nan))
-            with np.errstate(invalid="ignore"):
-                inside = np.flatnonzero((px > 0) & (px < right) & (py > 0) & (py < top))
-            if not len(inside):
+            _, px, py = panel.seen(_column(x, mode), y[:, mode])
+            if not len(px):
                 continue
-            px, py = px[inside], py[inside]
-            along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
+            along = _lengths(px, py)
             places = along[-1] * (0.04 + 0.92 * ((np.arange(CANDIDATES) + 0.37 * i) % CANDIDATES) / CANDIDATES)
-            texts = room.on_line(panel.x.value(np.interp(places, along, px) / right),
-                                 panel.y.value(np.interp(places, along, py) / top), str(mode + 1), SMALL, mode_colour(mode))
-            if not texts:
-                beside = room.beside(panel.x.value(px[-1] / right), panel.y.value(py[-1] / top), str(mode + 1), SMALL, 5,
-                                     mode_colour(mode))
-                texts = [beside] if beside else []
-            panel.items.extend(texts)
+            at = panel.at(np.interp(places, along, px), np.interp(places, along, py))
+            if not room.on_line(*at, str(mode + 1), SMALL, mode_colour(mode)):
+                room.beside(*panel.at(px[-1], py[-1]), str(mode + 1), SMALL, 5, mode_colour(mode))
 
     def name_width(self, modes):
         """Inches that names in the right margin need."""
         if len(modes) <= MOST_NAMED:
             return (text_width(max((self.short_name(mode) for mode in modes), key=len, default=""), NAME) + 14) / 72
-        return len(self._listed(modes)) * self._column(modes) / 72
+        return len(self._listed(modes)) * self._column_width(modes) / 72
 
     def _listed(self, modes, rows=44):
         """Modes in columns of the list of names; empty where modes have no names of their own."""
-        named = [mode for mode in modes if self.name(mode) != str(self.loci.mode.values[mode])]
+        named = [mode for mode in modes if self.names[mode] != self.labels[mode]]
         if not named or len(modes) > MOST_NAMES_LISTED:
             return []
         return [modes[i:i + rows] for i in range(0, len(modes), rows)]
 
-    def _column(self, modes):
+    def _column_width(self, modes):
         return text_width(max((self.short_name(mode) for mode in modes), key=len), SMALL) + 8
 
     def add_list(self, panel, modes):
         """Numbers and names of modes in the right margin."""
-        width, height = panel.points
         for column, members in enumerate(self._listed(modes)):
             for row, mode in enumerate(members):
-                panel.items.append(Label(panel.x.value(1.0), panel.y.value(1.0), self.short_name(mode), mode_colour(mode),
-                                         SMALL, "left", 8 + column * self._column(modes), -(row + 0.5) * HEIGHT * SMALL))
+                panel.items.append(Label(*panel.at(*panel.points), self.short_name(mode), mode_colour(mode), SMALL, "left",
+                                         8 + column * self._column_width(modes), -(row + 0.5) * HEIGHT * SMALL))
 
     # Events, ranges, rays.
 
@@ -190,28 +177,28 @@ class LociFigure:
         return list(zip(loci.event_kind.values, loci.event_parameter.values, loci.event_eigenvalue.values,
                         loci.event_value.values, loci.event_modes.values))
 
-    def add_names(self, panel, room, modes, x, y, shown):
-        """Names at the ends of the lines, or numbers on them where there are many."""
+    def add_names(self, panel, room, modes, x, y, few=None):
+        """Names at the ends of the lines, or numbers on them where there are many. `few`: what adds the names of a few."""
         if len(modes) <= MOST_NAMED:
-            self.add_end_names(panel, room, modes, x, y, shown)
+            (few or self.add_end_names)(panel, room, modes, x, y)
         else:
-            self.add_numbers(panel, room, modes, x, y, shown)
+            self.add_numbers(panel, room, modes, x, y)
             self.add_list(panel, modes)
 
-    def add_events(self, panel, place, labelled=True, events=(), before=lambda room: ()):
+    def add_events(self, panel, place, labelled=True, events=(), before=lambda room: None):
         """Marks of events, and labels where there is room. `place` maps the parameter and s to data coordinates; NaN: none.
 
-        `events`: events instead of those of the file; `before`: gives labels that come first. Returns the room that is left."""
+        `events`: events instead of those of the file; `before`: adds labels that come first. Returns the room that is left."""
         found = {}
-        for kind, p, s, value, modes in events or self.event_table():
+        for kind, p, s, value, _ in events or self.event_table():
             s = complex(without_rounding(np.complex128(s)))
             x, y = place(p, s)
             if np.isfinite(x) and np.isfinite(y) and _within(panel, x, y) and (labelled or kind not in OF_FREQUENCY):
-                found.setdefault(kind, []).append((x, y, event_label(kind, p, value), modes))
+                found.setdefault(kind, []).append((x, y, event_label(kind, p, value)))
         count = sum(map(len, found.values()))
         for kind, marks in found.items():
-            symbol, words = EVENTS.get(kind, (OTHER_EVENT, kind))
-            xs, ys, texts, _ = zip(*marks)
+            symbol, words, _ = event_kinds().get(kind, (OTHER_EVENT, kind, False))
+            xs, ys, texts = zip(*marks)
             size, colour = (6.0, INK) if count <= CROWDED else (4.5, INK) if kind not in OF_FREQUENCY else (3.5, GREY)
             colour = WARNING if kind == TOO_CLOSE else colour
             panel.items.append(Marks(np.array(xs), np.array(ys), symbol, colour, size, kind, list(texts)))
@@ -219,12 +206,11 @@ class LociFigure:
         if labelled:
             self._add_intervals(panel, place)
         room = Room(panel)
-        panel.items.extend(before(room))
-        for kind in sorted(found, key=lambda kind: list(EVENTS).index(kind) if kind in EVENTS else 99):
-            for x, y, text, _ in found[kind] if labelled else ():
-                label = room.beside(x, y, text, NAME if count <= CROWDED else SMALL, 5) if text else None
-                if label:
-                    panel.items.append(label)
+        before(room)
+        for kind in event_kinds() if labelled else ():
+            for x, y, text in found.get(kind, ()):
+                if text:
+                    room.beside(x, y, text, NAME if count <= CROWDED else SMALL, 5)
         return room
 
     def _add_intervals(self, panel, place):
@@ -267,16 +253,13 @@ class LociFigure:
     def begin(self, size, modes, further=()):
         """The picture, and the height (inches) at which panels end below the title and the legend. `further`: texts that the
         legend has besides those of events, ranges and styles of lines."""
-        picture = Picture(*size, title=str(self.loci.attrs.get("title", "")))
-        texts = self._legend_texts(modes) + list(further)
-        picture.legend_columns, rows = legend_grid(texts, size[0] - LEFT)
-        return picture, size[1] - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * rows
+        return framed(self.loci, size, self._legend_texts(modes) + list(further))
 
     def _legend_texts(self, modes):
         loci = self.loci
-        texts = [words for kind, (_, words) in EVENTS.items() if kind in set(loci.event_kind.values)]
+        texts = [words for kind, (_, words, _) in event_kinds().items() if kind in set(loci.event_kind.values)]
         texts += sorted({words for _, _, (_, _, words) in self.ranges()})
-        texts += [] if self.curves.errors(0) is None else [ERROR_WORDS]
+        texts += [] if self.curves.errors() is None else [ERROR_WORDS]
         styles = {style for mode in modes for style in self.curves.styles(mode)}
         return texts + [words for style, words in STYLE_WORDS.items() if style in styles]
 
@@ -291,11 +274,22 @@ class LociFigure:
         return picture
 
 
-def legend_grid(texts, width):
-    """Columns and rows of a legend on this width (inches)."""
+def _column(values, mode):
+    """Those of a mode, of an array (n, mode) or of one (n) for all."""
+    return values if values.ndim == 1 else values[:, mode]
+
+
+def _lengths(x, y):
+    """Lengths (n) of a polygon up to its places."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+
+
+def framed(data, size, texts):
+    """A picture with the title of a Dataset, and the height (inches) at which panels end below it and a legend of these texts."""
+    picture = Picture(*size, title=str(data.attrs.get("title", "")))
     widest = max((text_width(text, NAME) + 34 for text in texts), default=1)
-    columns = max(min(int(72 * width // widest), len(texts)), 1)
-    return columns, -(-len(texts) // columns)
+    columns = picture.legend_columns = max(min(int(72 * (size[0] - LEFT) // widest), len(texts)), 1)
+    return picture, size[1] - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * -(-len(texts) // columns)
 
 
 def event_label(kind, p, value):
@@ -307,9 +301,8 @@ def event_label(kind, p, value):
         return f"{number(100 * value, 3)} % at {place}" if kind == "damping_ratio" else ""
     if kind == "log_decrement":
         return f"\u03b4 {number(value, 3)} at {place}"
-    if kind in ("flutter", "divergence", "collision", "fold", "branch_point"):
-        return f"{EVENTS[kind][1]} {place}"
-    return ""
+    _, words, labelled = event_kinds().get(kind, ("", "", False))
+    return f"{words} {place}" if labelled else ""
 
 
 def _within(panel, x, y):

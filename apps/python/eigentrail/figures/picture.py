@@ -4,9 +4,10 @@ A `Picture` has panels with axes, and on these lines, marks, bands, spans, cells
 are decided here, so that the renderers only translate. Sizes are in inches, marks and texts in points (1/72 inch).
 """
 
-import math
 from dataclasses import dataclass, field
 from typing import Any, Optional
+
+import numpy as np
 
 Numbers = Any  # an array or a list of numbers
 
@@ -22,11 +23,9 @@ class Axis:
 
     def share(self, value):
         """Where a value lies: 0 at the low end, 1 at the high end. Values and result may be arrays."""
-        import numpy as np
-        if self.log:
-            with np.errstate(divide="ignore", invalid="ignore"):
-                return (np.log10(value) - math.log10(self.low)) / (math.log10(self.high) - math.log10(self.low))
-        return (np.asarray(value, float) - self.low) / (self.high - self.low)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            value, low, high = (np.log10(one) if self.log else np.asarray(one, float) for one in (value, self.low, self.high))
+        return (value - low) / (high - low)
 
     def value(self, share):
         """The value at a share of the axis."""
@@ -104,7 +103,6 @@ class Label:
     align: str = "left"
     dx: float = 0.0
     dy: float = 0.0
-    turn: float = 0.0  # degrees, counterclockwise
     halo: bool = False  # with a white edge, where lines are below it
     boxed: bool = False  # on a white ground, which hides the line behind it
 
@@ -125,6 +123,18 @@ class Panel:
     def place(self, x, y):
         """Points from the lower left corner of data coordinates."""
         return self.x.share(x) * self.points[0], self.y.share(y) * self.points[1]
+
+    def at(self, px, py):
+        """Data coordinates of points from the lower left corner."""
+        return self.x.value(px / self.points[0]), self.y.value(py / self.points[1])
+
+    def seen(self, x, y, slack=0.0):
+        """Of places in data coordinates those in the window, or not farther beside it: their numbers, and points (x, y)."""
+        px, py = self.place(x, y)
+        with np.errstate(invalid="ignore"):
+            inside = (px >= -slack) & (px <= self.points[0] + slack) & (py >= -slack) & (py <= self.points[1] + slack)
+        at = np.flatnonzero(inside)
+        return at, px[at], py[at]
 
     def of(self, kind):
         return [item for item in self.items if isinstance(item, kind)]

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from ..boundary import curve as smooth_curve
 from ..errors import SceneError
+from ..selection import curve as smooth_curve
 from .curves import parts
 from .labels import Room
-from .loci import BOTTOM, LEFT, LEGEND_ROW, NAME, RIGHT, TITLE, TOP, legend_grid
-from .picture import Area, Axis, Cells, Line, Marks, Picture
+from .loci import BOTTOM, LEFT, NAME, RIGHT, framed
+from .picture import Area, Axis, Cells, Line, Marks
 from .style import INK, with_unit
 
 # Names and colours of cells: by the number of growing modes, as on the report page.
@@ -29,10 +29,8 @@ def plane_picture(data, boundary=None, size=None):
         if (one.attrs["parameter"], one.attrs["second_parameter"]) != names:
             raise SceneError(f"boundary: expected one over {names[0]} and {names[1]}, found "
                              f"{one.attrs['parameter']} and {one.attrs['second_parameter']}")
-    picture = Picture(*(size or (7.5, 5.5)), title=str(data.attrs.get("title", "")))
     legend = (_cell_legend(data) if is_map else []) + [entry for one in curves for entry in _curve_legend(one)]
-    picture.legend_columns, rows = legend_grid([entry.legend for entry in legend], picture.width - LEFT)
-    top = picture.height - TOP - (TITLE if picture.title else 0) - LEGEND_ROW * rows
+    picture, top = framed(data, size or (7.5, 5.5), [entry.legend for entry in legend])
     axes = [Axis(with_unit(name, data[name].attrs.get("units", "1")), *ends) for name, ends in zip(names, _window(data, names))]
     panel = picture.add(LEFT + 0.15, BOTTOM, picture.width - RIGHT, top, *axes)
     if is_map:
@@ -113,6 +111,4 @@ def _add_curves(panel, data, names):
                                  [str(kind) for kind in data.corner_kind.values]))
         room = Room(panel)
         for (x, y), kind in zip(corners, data.corner_kind.values):
-            label = room.beside(x, y, str(kind).replace("takens_bogdanov", "Takens\u2013Bogdanov"), NAME, 5)
-            if label:
-                panel.items.append(label)
+            room.beside(x, y, str(kind).replace("takens_bogdanov", "Takens\u2013Bogdanov"), NAME, 5)

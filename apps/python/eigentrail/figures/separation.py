@@ -1,15 +1,13 @@
 """Operating ranges of a machine, and the margins that critical speeds must keep from them."""
 
 import re
+from collections import namedtuple
 
 from ..engine import engine
 
 
-class Operation:
+class Operation(namedtuple("Operation", "ranges margin")):
     """Ranges (from, to) in the unit of the parameter, and the wanted margin as a fraction of the nearer end; None: API 684."""
-
-    def __init__(self, ranges, margin):
-        self.ranges, self.margin = ranges, margin
 
     @classmethod
     def of(cls, loci):

@@ -5,6 +5,7 @@ from itertools import cycle
 import numpy as np
 
 from ..errors import SceneError
+from ..selection import mode_names, mode_number
 from .curves import damping_percent, without_rounding
 from .drawing import geometry
 from .labels import Room, text_width
@@ -46,27 +47,12 @@ def shape_picture(loci, value, mode, view="3D", size=None):
     return _stick_figure(figure, shape, title, view, size)
 
 
-def mode_number(loci, mode):
-    """The column of a mode that is given by its number from 1, its label or its name."""
-    names = [str(name) for name in loci.mode.values]
-    if isinstance(mode, (int, np.integer)):
-        if not 1 <= mode <= len(names):
-            raise SceneError(f"mode={mode}: the modes have the numbers 1 to {len(names)}")
-        return int(mode) - 1
-    named = [str(name) for name in loci.mode_name.values] if "mode_name" in loci.coords else []
-    for list_of_names in (names, named):
-        if mode in list_of_names:
-            return list_of_names.index(mode)
-    raise SceneError(f"mode={mode!r}: expected a number from 1 to {len(names)}, or one of "
-                     f"{', '.join(map(repr, [name for name in names + named if name]))}")
-
-
 def _title(loci, node, column):
     parameter = loci[loci.attrs["parameter"]]
     unit = parameter.attrs.get("units", "1")
     s = without_rounding(np.complex128(loci.eigenvalue.values[node, column]))
-    name = str(loci.mode_name.values[column]) if "mode_name" in loci.coords else ""
-    where = f"mode {column + 1}{' ' + name if name else ''} at {parameter.name} = {number(float(parameter[node]), 6)}"
+    label, name = (names[column] for names in mode_names(loci))
+    where = f"{label}{'' if name == label else ' ' + name} at {parameter.name} = {number(float(parameter[node]), 6)}"
     where += "" if unit == "1" else f" {unit}"
     if not np.isfinite(s):
         return where
@@ -79,24 +65,22 @@ def _title(loci, node, column):
 class _Carriers:
     """Points and bodies of a scene at a stored point, with the places on them and the links between these."""
 
-    def __init__(self, names, first, body, places, lines, equilibrium):
-        self.names, self.first, self.body = names, first, body
-        self.places, self.lines, self._equilibrium = places, lines, equilibrium
+    def __init__(self, carriers, places, lines, equilibrium):
+        self.names, self.first, self.body = ([one[key] for one in carriers] for key in ("name", "first", "body"))
+        self.places = [(place["carrier"], np.array(place["at"][0], float)) for place in places]
+        self.lines = [(line["kind"], line["from"], line["to"]) for line in lines]
+        self._equilibrium = equilibrium
         rest = self.at(np.zeros(len(equilibrium)))
         self.rest = np.array([*rest[0], *rest[2]])
-        self.axis = _common_axis(rest[0]) if len(names) >= ON_AN_AXIS else None
+        self.axis = _common_axis(rest[0]) if len(carriers) >= ON_AN_AXIS else None
 
     @classmethod
     def of(cls, loci, node):
         """None if the coordinates are not those of points and bodies."""
-        found = geometry(loci, node)
-        carriers = found["carriers"] if found else _from_names([str(name) for name in loci.coordinate.values])
-        if not carriers:
+        found = geometry(loci, node) or {"carriers": _from_names(list(map(str, loci.coordinate.values))), "places": [], "lines": []}
+        if not found["carriers"]:
             return None
-        places = [(place["carrier"], np.array(place["at"][0], float)) for place in found["places"]] if found else []
-        lines = [(line["kind"], line["from"], line["to"]) for line in found["lines"]] if found else []
-        return cls([one["name"] for one in carriers], [one["first"] for one in carriers], [one["body"] for one in carriers],
-                   places, lines, loci.equilibrium.values[node])
+        return cls(found["carriers"], found["places"], found["lines"], loci.equilibrium.values[node])
 
     def at(self, displacement):
         """Origins (k, 3), axes (k, 3, 3; rows) and places (j, 3) with a displacement of the coordinates added."""
@@ -167,9 +151,7 @@ def _stick_figure(figure, shape, title, view, size):
     if len(figure.names) <= MOST_NAMED:
         room = Room(panel)
         for name, place in zip(figure.names, figure.middles(shape.real) @ flat):
-            label = room.beside(*place, name, 8.0, 5, BLUE)
-            if label:
-                panel.items.append(label)
+            room.beside(*place, name, 8.0, 5, BLUE)
     picture.legend = [Line([], [], FAINT, 2.5, legend="equilibrium"), Line([], [], BLUE, 2.5, legend="displaced"),
                       Line([], [], BLUE, 0.7, legend="orbits")]
     return picture
@@ -213,12 +195,9 @@ def _add_parts(panel, figure, positions, flat, ghost):
 
 def _add_triad(panel, flat):
     """The axes of the frame in the lower left corner."""
-    width, height = panel.points
     for k, name in enumerate("xyz"):
         tip = 22 * flat[k]
-        at = [(24 + part[0], 24 + part[1]) for part in ((0.0, 0.0), tip, 1.35 * tip)]
-        x = [panel.x.value(place[0] / width) for place in at]
-        y = [panel.y.value(place[1] / height) for place in at]
+        x, y = panel.at(*(24 + np.outer(tip, (0.0, 1.0, 1.35))))
         if np.hypot(*tip) > 4:
             panel.items.append(Line(x[:2], y[:2], GREY, 1.0, name=f"direction {name}"))
             panel.items.append(Label(x[2], y[2], name, GREY, 8.0, "center"))
@@ -244,8 +223,8 @@ def _bent_shafts(loci, shape, title, size):
         shape = shape / shape[np.abs(shape).argmax()]
     moved = np.append(shape, 0.0)[loci.shaft_coordinate.values]  # a freedom that is held has the index -1: zero
     parts = []
-    for number in np.unique(loci.shaft_number.values):
-        nodes = np.flatnonzero(loci.shaft_number.values == number)
+    for shaft_number in np.unique(loci.shaft_number.values):
+        nodes = np.flatnonzero(loci.shaft_number.values == shaft_number)
         shaft = str(loci.shaft_node.values[nodes[0]]).rsplit("node", 1)[0].strip()
         for axis, name in enumerate(loci.shaft_axis.values):
             parts.append((f"{shaft} {name}".strip(), loci.shaft_place.values[nodes], moved[nodes, axis]))
@@ -256,12 +235,10 @@ def _over_the_axis(parts, title, size):
     """Displacements (name, places, values) over the place along an axis: where the largest component is real, and later."""
     parts = [(name, np.real(places), values) for name, places, values in parts]
     largest = max(np.abs(values).max() for _, _, values in parts) or 1.0
-    picture = Picture(*(size or (8.0, 4.2)), title=title)
     low, high = min(places.min() for _, places, _ in parts), max(places.max() for _, places, _ in parts)
     pad = 0.02 * (high - low)
-    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6,
-                        Axis("place along the axis, m", low - pad, high + pad), Axis("displacement / largest", -1.12, 1.12))
-    panel.items.append(Line([low - pad, high + pad], [0, 0], GREY, 0.8, name="axis"))
+    picture, panel = _chart(title, size or (8.0, 4.2), Axis("place along the axis, m", low - pad, high + pad),
+                            Axis("displacement / largest", -1.12, 1.12))
     for turned, dash, later in ((1.0, "solid", ""), (1j, "dash", ", a quarter period later")):
         for (words, places, values), colour in zip(parts, cycle((BLUE, ORANGE, GREEN, PINK))):
             height = (turned * values).real / largest
@@ -271,6 +248,14 @@ def _over_the_axis(parts, title, size):
             panel.items.append(Marks(places, height, "circle", colour, 3.5, f"{words}{later}, nodes"))
             picture.legend.append(Line([], [], colour, 1.6, dash, legend=words + later))
     return picture
+
+
+def _chart(title, size, x, y):
+    """A picture of one panel with a line at zero."""
+    picture = Picture(*size, title=title)
+    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, x, y)
+    panel.items.append(Line([x.low, x.high], [0, 0], GREY, 0.8, name="axis"))
+    return picture, panel
 
 
 def _bars(loci, shape, title, size):
@@ -296,15 +281,10 @@ def _bars(loci, shape, title, size):
 
 def _profile(shape, title, size):
     """Components over their numbers, where there are too many for bars."""
-    picture = Picture(*(size or (8.0, 4.0)), title=title)
     n = len(shape)
-    panel = picture.add(0.8, 0.6, picture.width - 0.25, picture.height - 0.6, Axis("number of the coordinate", 0, n + 1),
-                        Axis("component / largest", -1.08, 1.08))
-    where = np.arange(1, n + 1)
-    size_of = np.abs(shape)
-    panel.items += [
-        Area(np.concatenate([where, where[::-1]]), np.concatenate([size_of, -size_of[::-1]]), BLUE, 0.18, "magnitude"),
-        Line([0, n + 1], [0, 0], GREY, 0.8, name="axis"),
-        Line(where, shape.real, BLUE, 1.2, name="real part")]
+    picture, panel = _chart(title, size or (8.0, 4.0), Axis("number of the coordinate", 0, n + 1), Axis("component / largest", -1.08, 1.08))
+    where, size_of = np.arange(1, n + 1), np.abs(shape)
+    panel.items += [Area(np.concatenate([where, where[::-1]]), np.concatenate([size_of, -size_of[::-1]]), BLUE, 0.18, "magnitude"),
+                    Line(where, shape.real, BLUE, 1.2, name="real part")]
     picture.legend = [Line([], [], BLUE, 1.2, legend="real part"), Area([], [], BLUE, 0.18, legend="magnitude")]
     return picture

@@ -4,8 +4,8 @@ import numpy as np
 
 from ..errors import SceneError
 from .labels import text_width
-from .loci import BOTTOM, NAME, RIGHT, TITLE, TOP
-from .picture import Axis, Line, Marks, Picture
+from .loci import BOTTOM, NAME, RIGHT, framed
+from .picture import Axis, Line, Marks
 from .style import GREY, SYMBOLS, mode_colour, number
 
 WORK = {"wall_time": "wall time, s", "factorizations": "complex LU factorizations", "points": "points"}
@@ -24,9 +24,10 @@ def work_precision_picture(study, work="wall_time", size=None):
     if not groups:
         raise SceneError("no run of this study has an error that was measured")
     runs = np.concatenate(list(groups.values())).astype(int)
-    picture = Picture(*(size or (8.0, 5.0)), title=str(study.attrs.get("title", "")), legend_right=True)
+    picture, top = framed(study, size or (8.0, 5.0), [])
+    picture.legend_right = True
     names = (max(text_width(name, NAME) for name in groups) + 50) / 72
-    panel = picture.add(LEFT, BOTTOM, picture.width - RIGHT - names, picture.height - TOP - (TITLE if picture.title else 0),
+    panel = picture.add(LEFT, BOTTOM, picture.width - RIGHT - names, top,
                         _decades(study[work].values[runs], WORK[work]), _decades(study.error.values[runs], "largest relative error"))
     for i, (name, members) in enumerate(groups.items()):
         members = sorted(members, key=lambda run: study[work].values[run])

@@ -1,6 +1,9 @@
 """Colours, marks and units that all figures share; those of the report page."""
 
 import math
+from functools import cache
+
+from ..engine import engine
 
 # Okabe and Ito's colours without yellow, which is too light for lines on white.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"]
@@ -14,17 +17,7 @@ RANGES = {"stable": ("#009e73", 0.13, "stable"), "marginal": ("#e69f00", 0.16, "
           "undecided": ("#6e6e6e", 0.16, "undecided: errors of the data")}
 PARTIAL_RANGE = ("#0072b2", 0.10, "no followed mode grows, others are not known")
 
-# Per kind of event: mark, words of the legend, and whether its label begins with the word.
-EVENTS = {
-    "flutter": ("x", "flutter"), "divergence": ("cross", "divergence"), "collision": ("star", "collision"),
-    "crossing": ("circle-open", "crossing"), "veering": ("bowtie-open", "veering"), "fold": ("triangle-left", "fold"),
-    "cusp": ("pentagon-open", "cusp"),
-    "branch_point": ("asterisk-open", "branch point"), "damping_ratio": ("square-open", "damping ratio"),
-    "resonance": ("diamond-open", "resonance"), "extremum": ("triangle-down-open", "extremum"),
-    "log_decrement": ("hexagon-open", "logarithmic decrement"), "band_edge": ("line-ew-open", "edge of the band"),
-}
 TOO_CLOSE = "too_close"  # a resonance in the separation margin of an operating range
-EVENTS[TOO_CLOSE] = ("diamond-open", "resonance, too close")
 WARNING = "#b2182b"
 OPERATION = ("#56b4e9", 0.3, "operating range")
 MARGIN = ("#d55e00", 0.16, "separation margin")
@@ -35,6 +28,12 @@ ANGULAR = {"rad/s": 1.0, "Hz": 2 * math.pi, "kHz": 2000 * math.pi, "rpm": math.p
            "deg/s": math.pi / 180}
 
 SAME_AS_ZERO = 1e-9  # real parts below this share of abs(s) are rounding, as in the stability analysis
+
+
+@cache
+def event_kinds():
+    """Per kind of event: its mark, its words in the legend, and whether these stand beside the mark."""
+    return {**engine().event_kinds(), TOO_CLOSE: ("diamond-open", "resonance, too close", True)}
 
 
 def mode_colour(mode):

@@ -3,29 +3,12 @@
 import numpy as np
 
 from ..errors import SceneError
-from .curves import damping_percent, oscillates, usual_range, with_ends
+from .curves import damping_percent, oscillates, runs, usual_range
 from .drawing import excitation
 from .loci import BOTTOM, LEFT, MOST_NAMED, NAME, RIGHT, LociFigure, padded
 from .picture import Axis, Line, Marks, Span
 from .separation import Operation
-from .style import ANGULAR, EVENTS, GREY, INK, MARGIN, OPERATION, TOO_CLOSE, mode_colour, number
-
-
-def of_oscillations(figure):
-    """A function of a mode: its places where it oscillates, and those next to them."""
-    return lambda mode: with_ends(oscillates(figure.curves.s[:, mode])) & np.isfinite(figure.curves.s[:, mode])
-
-
-def frequency(figure):
-    return lambda mode: np.abs(figure.curves.s[:, mode].imag) / figure.factor
-
-
-def damping(figure):
-    return lambda mode: damping_percent(figure.curves.s[:, mode])
-
-
-def along(figure):
-    return lambda mode: figure.curves.parameter
+from .style import ANGULAR, GREY, INK, MARGIN, OPERATION, TOO_CLOSE, event_kinds, mode_colour, number
 
 
 def harmonics_of(figure, asked):
@@ -51,29 +34,29 @@ def campbell_picture(loci, harmonics=None, unit=None, log=False, size=None):
     """Damped frequency over the parameter with rays of harmonics; the damping ratio below."""
     figure = LociFigure(loci, unit)
     harmonics, source = harmonics_of(figure, harmonics)
-    shown, modes = of_oscillations(figure), oscillating(figure)
-    low, high = frequency_range(figure, modes, shown, harmonics, source, log)
-    modes = [mode for mode in modes if np.nanmin(np.where(shown(mode), frequency(figure)(mode), np.nan)) < high]
+    modes = oscillating(figure)
+    low, high = frequency_range(figure, modes, harmonics, source, log)
+    modes = [mode for mode in modes if np.nanmin(figure.frequency[:, mode]) < high]
     events = [*figure.event_table(), *ray_crossings(figure, modes, harmonics, source)]
     operation = Operation.of(loci)
-    words = [OPERATION[2], MARGIN[2], EVENTS[TOO_CLOSE][1]] if operation.ranges else []
+    words = [OPERATION[2], MARGIN[2], event_kinds()[TOO_CLOSE][1]] if operation.ranges else []
     picture, top = figure.begin(size or (9.0, 6.5), modes, ["resonance", *words] if harmonics else words)
     right, middle = picture.width - RIGHT - figure.name_width(modes), BOTTOM + 0.3 * (top - BOTTOM)
     above = picture.add(LEFT, middle + 0.18, right, top, figure.parameter_axis(),
                         Axis(f"damped frequency, {figure.unit}", low, high, log))
     above.x.title, above.x.shown = "", False
     below = picture.add(LEFT, BOTTOM, right, middle, figure.parameter_axis(),
-                        Axis("damping ratio, %", *damping_range(figure, modes, shown)))
+                        Axis("damping ratio, %", *damping_range(figure, modes)))
     for panel in picture.panels:
         add_operation(figure, panel, operation, events)
     rays = add_rays(figure, above, harmonics, source)
-    add_curves(figure, above, modes, frequency(figure), lambda mode: 1 / figure.factor, shown)
-    add_curves(figure, below, modes, damping(figure), lambda mode: 100 / np.abs(figure.curves.s[:, mode]), shown)
+    add_curves(figure, above, modes, figure.frequency, 1 / figure.factor)
+    add_curves(figure, below, modes, figure.damping, figure.damping_per_error)
     events = [(TOO_CLOSE if kind == "resonance" and operation.is_too_close(p, s) else kind, p, s, *more)
               for kind, p, s, *more in events]
     room = figure.add_events(above, lambda p, s: (p, abs(s.imag) / figure.factor), events=events, before=rays)
     figure.add_events(below, damping_place, labelled=False, events=events)
-    figure.add_names(above, room, modes, along(figure), frequency(figure), shown)
+    figure.add_names(above, room, modes, figure.p, figure.frequency)
     return figure.finish(picture)
 
 
@@ -91,24 +74,24 @@ def add_operation(figure, panel, operation, events):
 def damping_picture(loci, size=None):
     """Damping ratio of oscillating modes over the parameter."""
     figure = LociFigure(loci)
-    shown, modes = of_oscillations(figure), oscillating(figure)
+    modes = oscillating(figure)
     picture, top = figure.begin(size or (9.0, 5.0), modes)
     panel = picture.add(LEFT, BOTTOM, picture.width - RIGHT - figure.name_width(modes), top, figure.parameter_axis(),
-                        Axis("damping ratio, %", *damping_range(figure, modes, shown)))
-    add_curves(figure, panel, modes, damping(figure), lambda mode: 100 / np.abs(figure.curves.s[:, mode]), shown)
+                        Axis("damping ratio, %", *damping_range(figure, modes)))
+    add_curves(figure, panel, modes, figure.damping, figure.damping_per_error)
     room = figure.add_events(panel, damping_place)
-    figure.add_names(panel, room, modes, along(figure), damping(figure), shown)
+    figure.add_names(panel, room, modes, figure.p, figure.damping)
     return figure.finish(picture)
 
 
-def add_curves(figure, panel, modes, value, error, shown):
-    """Everything along the parameter but events and names. `error` of a mode: change of the value per change of s."""
+def add_curves(figure, panel, modes, y, per_error):
+    """Everything along the parameter but events and names. `per_error`: change of y per change of s."""
     figure.add_ranges(panel)
     figure.add_folds(panel)
     if panel.y.low < 0 < panel.y.high:
         panel.items.append(Line([panel.x.low, panel.x.high], [0, 0], GREY, 0.8, name="axis"))
-    figure.add_bands(panel, modes, value, error, shown)
-    figure.add_modes(panel, modes, along(figure), value, shown)
+    figure.add_bands(panel, modes, y, per_error)
+    figure.add_modes(panel, modes, figure.p, y)
 
 
 def damping_place(p, s):
@@ -117,49 +100,44 @@ def damping_place(p, s):
 
 def oscillating(figure):
     """Modes that oscillate somewhere."""
-    modes = [mode for mode in figure.modes if np.sum(oscillates(figure.curves.s[:, mode])) > 2]
+    modes = [mode for mode in figure.modes if np.sum(oscillates(figure.s[:, mode])) > 2]
     if not modes:
         raise SceneError("no mode of this trace oscillates; root_locus() draws real eigenvalues")
     return modes
 
 
-def frequency_range(figure, modes, shown, harmonics, source, log):
+def frequency_range(figure, modes, harmonics, source, log):
     """To the highest ray at the end of the range, at least to the lowest mode; to all modes where there are no rays."""
-    values = [np.where(shown(mode), frequency(figure)(mode), np.nan) for mode in modes]
-    highest = usual_range(np.concatenate(values))[1]
+    values = figure.frequency[:, modes]
+    highest = usual_range(values)[1]
     if harmonics:
         ray = max(harmonics) * float(np.max(source.frequency)) / figure.factor
-        lowest = min(np.nanmax(value) for value in values)
-        highest = max(ray, 1.05 * lowest)
-    if not log:
-        return (-0.02 * highest, 1.04 * highest) if highest > 0 else (-0.02, 1.0)
-    positive = np.concatenate(values)
-    positive = positive[positive > 1e-6 * highest]
-    return 0.8 * float(positive.min()), 1.25 * highest
+        highest = max(ray, 1.05 * np.nanmax(values, axis=0).min())
+    if log:
+        return 0.8 * float(values[values > 1e-6 * highest].min()), 1.25 * highest
+    return (-0.02 * highest, 1.04 * highest) if highest > 0 else (-0.02, 1.0)
 
 
-def damping_range(figure, modes, shown):
-    low, high = usual_range(np.concatenate([np.where(shown(mode), damping(figure)(mode), np.nan) for mode in modes]))
+def damping_range(figure, modes):
+    low, high = usual_range(figure.damping[:, modes])
     if max(abs(low), abs(high)) < 1e-6:
         return -1.0, 1.0
     return padded(min(low, 0.0), max(high, 0.0), 0.06, 0.08)
 
 
 def add_rays(figure, panel, harmonics, source):
-    """Lines of harmonics. Returns a function of the room that gives their names, at their ends in the window."""
+    """Lines of harmonics. Returns a function of the room that adds their names, at their ends in the window."""
     rays = []
     for n in harmonics:
         x, y = np.asarray(source.parameter, float), n * np.asarray(source.frequency, float) / figure.factor
         x, y = (np.interp(np.linspace(0, len(x) - 1, 400), np.arange(len(x)), values) for values in (x, y))
         panel.items.append(Line(x, y, GREY, 1.0, "dot", f"harmonic {number(n)}"))
-        px, py = panel.place(x, y)
-        with np.errstate(invalid="ignore"):
-            seen = (py >= 0) & (py <= panel.points[1]) & (px >= 0) & (px <= panel.points[0])
+        seen, _, _ = panel.seen(x, y)
         rays.append((x[seen], y[seen], f"{number(n)}\u00d7"))
 
     def names(room):
-        found = [room.at_end(x, y, text, NAME, "#444444") for x, y, text in rays if len(x)]
-        return [label for label in found if label]
+        for x, y, text in rays:
+            room.at_end(x, y, text, NAME, "#444444")
 
     return names
 
@@ -186,19 +164,10 @@ def _ascending(source):
 def root_locus_picture(loci, unit=None, size=None):
     """Im s over Re s, upper half plane: a ring where a mode begins, a dot where it ends."""
     figure = LociFigure(loci, unit)
-    s, modes = figure.curves.s, figure.modes
-
-    def real(mode):
-        return s[:, mode].real
-
-    def imag(mode):
-        return np.abs(s[:, mode].imag) / figure.factor
-
-    def shown(mode):
-        return np.isfinite(s[:, mode])
-
-    low, high = usual_range(np.concatenate([real(mode) for mode in modes]))
-    top_value = usual_range(np.concatenate([imag(mode) for mode in modes]))[1]
+    modes, s = figure.modes, figure.s
+    real, imag = s.real, np.abs(s.imag) / figure.factor
+    low, high = usual_range(real[:, modes])
+    top_value = usual_range(imag[:, modes])[1]
     if max(abs(low), abs(high)) < 1e-7 * top_value * figure.factor:
         low, high = -1e-3 * top_value * figure.factor, 1e-3 * top_value * figure.factor
     figure.explain(Marks([], [], "circle-open", INK, 5.0, legend="begins"))
@@ -209,25 +178,16 @@ def root_locus_picture(loci, unit=None, size=None):
                         Axis("Re s, 1/s", *padded(min(low, 0.0), max(high, 0.0), 0.05, 0.07)),
                         Axis(f"damped frequency Im s, {figure.unit}", *padded(0.0, top_value or 1.0, 0.03, 0.05)))
     panel.items.append(Line([0, 0], [panel.y.low, panel.y.high], "#555555", 1.0, name="axis"))
-    figure.add_modes(panel, modes, real, imag, shown)
-    ends = [(begin, end) for mode in modes for begin, end in _pieces(shown(mode), mode)]
-    size_of_ends = 5.0 if len(ends) <= 40 else 3.5
-    for pick, symbol in ((0, "circle-open"), (1, "circle")):
-        at = [(real(mode)[piece[pick]], imag(mode)[piece[pick]]) for piece, mode in ends]
-        panel.items.append(Marks(*(np.array(values) for values in zip(*at)), symbol, INK, size_of_ends, ("begins", "ends")[pick]))
-    room = figure.add_events(panel, lambda p, s: (s.real, abs(s.imag) / figure.factor))
-    if len(modes) <= MOST_NAMED:
+    figure.add_modes(panel, modes, real, imag)
+    ends = [((begin, end - 1), mode) for mode in modes for begin, end in runs(np.isfinite(s[:, mode])) if end - begin > 2]
+    for pick, (symbol, what) in enumerate((("circle-open", "begins"), ("circle", "ends"))):
+        at = tuple(zip(*((places[pick], mode) for places, mode in ends)))
+        panel.items.append(Marks(real[at], imag[at], symbol, INK, 5.0 if len(ends) <= 40 else 3.5, what))
+
+    def name_ends(panel, room, modes, x, y):
         for (_, end), mode in ends:
-            label = room.beside(real(mode)[end], imag(mode)[end], figure.short_name(mode), NAME, 5, mode_colour(mode))
-            if label:
-                panel.items.append(label)
-    else:
-        figure.add_numbers(panel, room, modes, real, imag, shown)
-        figure.add_list(panel, modes)
+            room.beside(x[end, mode], y[end, mode], figure.short_name(mode), NAME, 5, mode_colour(mode))
+
+    room = figure.add_events(panel, lambda p, s: (s.real, abs(s.imag) / figure.factor))
+    figure.add_names(panel, room, modes, real, imag, few=name_ends)
     return figure.finish(picture)
-
-
-def _pieces(mask, mode):
-    """First and last place of every part of a mask (n), with the mode."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
-    return [((begin, end - 1), mode) for begin, end in edges.reshape(-1, 2) if end - begin > 2]

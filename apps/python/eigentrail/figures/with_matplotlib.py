@@ -101,31 +101,32 @@ def _set_axis(axes, axis, which):
         axes.tick_params(**{f"label{'bottom' if which == 'x' else 'left'}": False})
 
 
-def _mark(symbol, colour, size):
-    """Keywords of a line that shows a mark."""
-    base = symbol.removesuffix("-open")
-    open_ = symbol != base or base.endswith("-dot")
+def _mark(item):
+    """Keywords of a line that shows marks."""
+    base, colour = item.symbol.removesuffix("-open"), item.colour
+    open_ = item.symbol != base or base.endswith("-dot")
     width = 1.3 if open_ or base in STROKES else 0.5
-    return {"marker": SYMBOLS[base], "markersize": size * LARGER.get(base, 1.0), "markeredgewidth": width,
+    return {"marker": SYMBOLS[base], "markersize": item.size * LARGER.get(base, 1.0), "markeredgewidth": width,
             "markerfacecolor": "none" if open_ else colour, "markeredgecolor": colour if open_ or base in STROKES else "white"}
 
 
 def _draw_line(axes, item):
-    axes.plot(item.x, item.y, color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash], clip_on=item.clip,
-              solid_capstyle="round", label=item.name or None)
+    return axes.plot(item.x, item.y, color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash], clip_on=item.clip,
+                     solid_capstyle="round", label=item.name or None)
 
 
 def _draw_marks(axes, item):
-    axes.plot(item.x, item.y, linestyle="none", zorder=3, label=item.name or None, clip_on=False,
-              **_mark(item.symbol, item.colour, item.size))
+    style = DASHES[item.legend_line] if item.legend_line else "none"
+    return axes.plot(item.x, item.y, linestyle=style, color=item.colour, zorder=3, label=item.name or None, clip_on=False,
+                     **_mark(item))
 
 
 def _draw_area(axes, item):
-    axes.fill(item.x, item.y, color=item.colour, alpha=item.opacity, linewidth=0, label=item.name or None)
+    return axes.fill(item.x, item.y, color=item.colour, alpha=item.opacity, linewidth=0, label=item.name or None)
 
 
 def _draw_span(axes, item):
-    axes.axvspan(item.low, item.high, color=item.colour, alpha=item.opacity, linewidth=0, zorder=0)
+    return [axes.axvspan(item.low, item.high, color=item.colour, alpha=item.opacity, linewidth=0, zorder=0)]
 
 
 def _draw_label(axes, item):
@@ -134,8 +135,7 @@ def _draw_label(axes, item):
     if item.boxed:
         more["bbox"] = dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.85)
     axes.annotate(item.text, (item.x, item.y), xytext=(item.dx, item.dy), textcoords="offset points", ha=item.align,
-                  va="center", fontsize=item.size, color=item.colour, rotation=item.turn, annotation_clip=False, zorder=5,
-                  parse_math=False, rotation_mode="anchor" if item.turn else "default", **more)
+                  va="center", fontsize=item.size, color=item.colour, annotation_clip=False, zorder=5, parse_math=False, **more)
 
 
 def _draw_cells(axes, item):
@@ -165,18 +165,9 @@ _DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_sp
 
 
 def _draw_legend(figure, picture, left, top):
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
     handles = []
-    for item in picture.legend:
-        if isinstance(item, Marks):
-            line = item.legend_line
-            handle = Line2D([], [], linestyle=DASHES[line] if line else "none", color=item.colour,
-                            **_mark(item.symbol, item.colour, item.size))
-        elif isinstance(item, Line):
-            handle = Line2D([], [], color=item.colour, linewidth=item.width, linestyle=DASHES[item.dash])
-        else:
-            handle = Patch(facecolor=item.colour, alpha=item.opacity, linewidth=0)
+    for item in picture.legend:  # they have no data, so that nothing of them is seen in the axes
+        (handle,) = _DRAWN[type(item)](figure.axes[0], item)
         handle.set_label(item.legend)
         handles.append(handle)
     columns = picture.legend_columns

@@ -33,7 +33,7 @@ def draw(picture):
         texts += _draw_panel(figure, go, panel, "" if number == 0 else str(number + 1))
     figure.layout.annotations = texts
     for item in picture.legend:
-        figure.add_trace(_legend_entry(go, item))
+        figure.add_trace(go.Scatter(x=[None], y=[None], name=plain(item.legend), showlegend=True, hoverinfo="skip", **_style(item)))
     return figure
 
 
@@ -83,29 +83,27 @@ def _hover(panel, name):
     return dict(hovertemplate=f"{x}: %{{x:.6g}}<br>{y}: %{{y:.6g}}<extra>{plain(name)}</extra>")
 
 
-def _draw_line(figure, go, item, axes, panel):
-    figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="lines", name=item.name, showlegend=False, cliponaxis=item.clip,
-                                line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash],
-                                          simplify=False), **_hover(panel, item.name), **axes))
+def _style(item):
+    """How a trace looks that shows an item, or its entry in the legend."""
+    if isinstance(item, Line):
+        return dict(mode="lines", line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash], simplify=False))
+    if isinstance(item, Marks):
+        width, edge = (1.7, item.colour) if "-open" in item.symbol else (0.5, "#fff")
+        marker = dict(symbol=item.symbol, color=item.colour, size=item.size * POINT, line=dict(width=width, color=edge))
+        line = dict(color=item.colour, dash=DASHES[item.legend_line or "solid"])
+        return dict(mode="lines+markers" if item.legend_line else "markers", marker=marker, line=line)
+    faded = f"rgba({','.join(str(int(item.colour[i:i + 2], 16)) for i in (1, 3, 5))},{item.opacity:g})"
+    if not len(getattr(item, "x", ())):
+        return dict(mode="markers", marker=dict(symbol="square", size=11, color=faded, line=dict(width=0)))
+    return dict(mode="lines", fill="toself", line=dict(width=0), fillcolor=faded)
 
 
-def _draw_marks(figure, go, item, axes, panel):
-    figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="markers", name=item.name, showlegend=False, text=item.texts,
-                                marker=_mark(item), cliponaxis=False, **_hover(panel, item.name), **axes))
-
-
-def _mark(item):
-    return dict(symbol=item.symbol, color=item.colour, size=item.size * POINT,
-                line=dict(width=1.7 if "-open" in item.symbol else 0.5, color=item.colour if "-open" in item.symbol else "#fff"))
-
-
-def _draw_area(figure, go, item, axes, panel):
-    figure.add_trace(go.Scatter(x=item.x, y=item.y, mode="lines", fill="toself", line=dict(width=0), name=item.name,
-                                fillcolor=_faded(item), hoverinfo="skip", showlegend=False, **axes))
-
-
-def _faded(item):
-    return f"rgba({','.join(str(int(item.colour[i:i + 2], 16)) for i in (1, 3, 5))},{item.opacity:g})"
+def _draw_trace(figure, go, item, axes, panel):
+    """A line, marks, or an area."""
+    clip = item.clip if isinstance(item, Line) else not isinstance(item, Marks)
+    hover = _hover(panel, "" if isinstance(item, Area) else item.name)
+    figure.add_trace(go.Scatter(x=item.x, y=item.y, name=item.name, showlegend=False, text=getattr(item, "texts", None),
+                                cliponaxis=clip, **_style(item), **hover, **axes))
 
 
 def _draw_span(figure, go, item, axes, panel):
@@ -118,7 +116,7 @@ def _text(item, axes, panel):
     y, yref = _reference(panel.y, item.y, axes["yaxis"], panel.bottom, panel.height)
     return dict(x=x, y=y, xref=xref, yref=yref, text=plain(item.text), showarrow=False,
                 font=dict(color=item.colour, size=item.size * POINT), xanchor=item.align, yanchor="middle",
-                xshift=item.dx * POINT, yshift=item.dy * POINT, textangle=-item.turn, borderpad=0,
+                xshift=item.dx * POINT, yshift=item.dy * POINT, borderpad=0,
                 bgcolor="rgba(255,255,255,0.85)" if item.boxed else "rgba(255,255,255,0)")
 
 
@@ -139,15 +137,4 @@ def _draw_cells(figure, go, item, axes, panel):
                                 hovertemplate="%{x:.6g}, %{y:.6g}: %{text}<extra></extra>", **axes))
 
 
-_DRAWN = {Line: _draw_line, Marks: _draw_marks, Area: _draw_area, Span: _draw_span, Cells: _draw_cells}
-
-
-def _legend_entry(go, item):
-    common = dict(x=[None], y=[None], name=plain(item.legend), showlegend=True, hoverinfo="skip")
-    if isinstance(item, Marks):
-        line = item.legend_line
-        return go.Scatter(mode="lines+markers" if line else "markers", marker=_mark(item),
-                          line=dict(color=item.colour, dash=DASHES[line or "solid"]), **common)
-    if isinstance(item, Line):
-        return go.Scatter(mode="lines", line=dict(color=item.colour, width=item.width * POINT, dash=DASHES[item.dash]), **common)
-    return go.Scatter(mode="markers", marker=dict(symbol="square", size=11, color=_faded(item), line=dict(width=0)), **common)
+_DRAWN = {Line: _draw_trace, Marks: _draw_trace, Area: _draw_trace, Span: _draw_span, Cells: _draw_cells}
