@@ -8,6 +8,7 @@ import math
 import pathlib
 import unittest
 
+import h5py
 import numpy as np
 
 from command_test_case import CommandTest
@@ -311,6 +312,8 @@ class LimitPoints(VerdictTest):
                     (cusp,) = self.places(file, "cusp")
                     self.assertLess(abs(cusp), 1e-9)
                     self.assertEqual(self.places(file, "fold"), [])
+                    with h5py.File(self.folder / file) as loci:
+                        self.assertTrue(np.isnan(loci["event_shift"][:]).all())   # it becomes two folds, or none
                     self.run_well("verify", file)
 
     def test_folds_beside_a_cusp_are_folds(self):

@@ -98,7 +98,10 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
     return found;
   }
   keep_vanishing_motion(search, node, event);
-  if (is_fold) keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
+  if (event.kind == EventKind::fold)
+    keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
+  else if (event.kind == EventKind::cusp)  // no other parameter only moves it: it becomes two folds, or none
+    leave_unknown(search.problem().model.description().parameters.size(), event);
   found.events.push_back(std::move(event));
   return found;
 }
@@ -133,6 +136,7 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   if (is_limit) {
     event.kind = EventKind::cusp;
     event.direction = 0;
+    leave_unknown(problem.model.description().parameters.size(), event);
     return {{std::move(event)}};
   }
   event.kind = EventKind::branch_point;
