@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "commands.hpp"
@@ -13,14 +12,11 @@ namespace {
 
 struct ExplainArguments : SceneArguments {
   bool sensitivity = false;
-  std::map<std::string, std::string> options;
 };
 
 int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solver) {
-  const OptionTexts options{arguments.options.begin(), arguments.options.end()};
-  const TraceSetup setup = prepare_trace(given_scene(arguments), options);
-  warn_of_unused(setup.scene, *setup.model);
-  const Route route = explain(stdout, setup, options, arguments.sensitivity, solver);
+  const TraceSetup setup = given_setup(arguments);
+  const Route route = explain(stdout, setup, arguments.overrides(), arguments.sensitivity, solver);
   if (!route.is_projected)
     std::printf("next: eigentrail trace %s -o %s\n", setup.scene.path.c_str(),
                 std::filesystem::path(setup.scene.path).stem().replace_extension(".h5").c_str());
@@ -36,11 +32,7 @@ void add_explain(CLI::App& program, int& exit_code) {
   add_scene(*command, *arguments);
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "rank the effects by their influence on each mode where the trace begins");
-  for (const std::string name : {"parameter", "from", "to", "modes", "order", "without"}) {
-    command->add_option_function<std::string>(
-        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        "as for trace (overrides the scene)");
-  }
+  add_overrides(*command, *arguments, {"parameter", "from", "to", "modes", "order", "without"});
   command->footer(
       "Examples:\n"
       "  eigentrail explain data/scenes/rotating_mass.toml\n"

@@ -10,6 +10,7 @@
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
 #include "ranges.hpp"
+#include "records.hpp"
 #include "samples_info.hpp"
 
 namespace eigentrail::app {
@@ -161,7 +162,7 @@ void print_json(const LociFile& loci) {
   info["events"] = loci.events.size();
   if (loci.ranges) info["stable_ranges"] = ranges_json(*loci.ranges);
   info["attributes"] = loci.attributes;
-  std::printf("%s\n", info.dump(2).c_str());
+  print_text_of(info);
 }
 
 int run_info(const InfoArguments& arguments) {

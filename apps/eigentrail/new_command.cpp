@@ -3,10 +3,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/store/output_file.hpp"
+#include "output_choice.hpp"
 #include "starters.hpp"
 
 namespace eigentrail::app {
@@ -38,8 +37,7 @@ int run_new(const NewArguments& arguments) {
   std::error_code error;
   if (std::filesystem::exists(path, error))
     throw InputError(path + ": exists already, and a scene is never replaced; give another name");
-  check_output(path, false, OtherOutput{[](const std::string&) { return false; }, "scene"});
-  check_can_create(path);
+  check_new_output(path, false, {"scene", [](const std::string&) { return false; }});
   write_durably(path, {text_for(starters[static_cast<std::size_t>(chosen - names.begin())], path)});
   std::printf("wrote %s; next: eigentrail explain %s\n", path.c_str(), path.c_str());
   return done;

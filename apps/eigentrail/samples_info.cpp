@@ -8,6 +8,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 #include "output.hpp"
+#include "records.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -64,7 +65,7 @@ void print_json(const std::string& path, const SampledData& data) {
   info["state_units"] = data.state_units;
   info["digits"] = data.digits ? nlohmann::ordered_json(*data.digits) : nlohmann::ordered_json();
   info["source"] = data.source;
-  std::printf("%s\n", info.dump(2).c_str());
+  print_text_of(info);
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "eigentrail/accuracy/suggest.hpp"
@@ -12,6 +10,7 @@
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "output.hpp"
+#include "records.hpp"
 #include "scene_arguments.hpp"
 
 namespace eigentrail::app {
@@ -20,7 +19,6 @@ namespace {
 struct SuggestArguments : SceneArguments {
   int count = 3;
   bool json = false;
-  std::map<std::string, std::string> options;
 };
 
 /// A scene, or the samples themselves: then a scene that names them and follows all modes on their range.
@@ -48,19 +46,15 @@ Scene scene_of(const std::string& path) {
   return parse_scene(text, path);
 }
 
-void print_json(const std::vector<Suggestion>& suggestions) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+Records records_of(const std::vector<Suggestion>& suggestions) {
+  Records records{{"parameter", "error", "real", "imag"}};
   for (const Suggestion& one : suggestions)
-    rows.push_back(
-        {{"parameter", one.p}, {"error", one.error}, {"real", one.s.real()}, {"imag", one.s.imag()}});
-  std::printf("%s\n", rows.dump(2).c_str());
+    records.rows.push_back({one.p, one.error, one.s.real(), one.s.imag()});
+  return records;
 }
 
 int run_suggest(const SuggestArguments& arguments) {
-  const TraceSetup setup =
-      prepare_trace(with_settings_of(arguments, scene_of(arguments.scene)),
-                    {arguments.options.begin(), arguments.options.end()}, Purpose::operating_point);
-  warn_of_unused(setup.scene, *setup.model);
+  const TraceSetup setup = given_setup(arguments, scene_of(arguments.scene), Purpose::operating_point);
   const std::vector<Suggestion> all = suggest_samples(setup);
   const double tolerance = setup.options.tolerance;
   const auto above = static_cast<std::size_t>(
@@ -68,7 +62,7 @@ int run_suggest(const SuggestArguments& arguments) {
   std::vector<Suggestion> first = all;
   first.resize(std::min(above, static_cast<std::size_t>(arguments.count)));
   if (arguments.json) {
-    print_json(first);
+    print(records_of(first), {.json = true});
     return done;
   }
   std::printf("%zu samples, relative error of eigenvalues between them up to %s\n", all.size() + 1,
@@ -105,11 +99,7 @@ void add_suggest(CLI::App& program, int& exit_code) {
   command->add_option("--count", arguments->count, "largest number of values")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  for (const std::string name : {"from", "to", "tolerance", "modes"}) {
-    command->add_option_function<std::string>(
-        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        "as for trace (overrides the scene)");
-  }
+  add_overrides(*command, *arguments, {"from", "to", "tolerance", "modes"});
   command->add_flag("--json", arguments->json, "print a list of objects");
   command->footer(
       "Examples:\n"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-#include "eigentrail/accuracy/trace_in_memory.hpp"
+#include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/model/function_family.hpp"
 #include "eigentrail/projection/project.hpp"
