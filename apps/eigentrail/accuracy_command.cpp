@@ -2,7 +2,6 @@
 #include <charconv>
 #include <cstdio>
 #include <map>
-#include <memory>
 
 #include "accuracy_report.hpp"
 #include "commands.hpp"
@@ -98,9 +97,9 @@ int run_accuracy(AccuracyArguments& arguments, Team& team) {
 }  // namespace
 
 void add_accuracy(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<AccuracyArguments>();
-  CLI::App* command = program.add_subcommand(
-      "accuracy", "work-precision study of a scene: the error really achieved, and what it costs");
+  const auto [command, arguments] = add_command<AccuracyArguments>(
+      program, exit_code, in_team(run_accuracy, alone), "accuracy",
+      "work-precision study of a scene: the error really achieved, and what it costs");
   StudyOptions& options = arguments->study;
   add_scene(*command, *arguments);
   add_output(*command, arguments->output, "file to write (HDF5); default: none");
@@ -109,10 +108,7 @@ void add_accuracy(CLI::App& program, int& exit_code) {
         std::array{"--orders", "orders of the power series: A,B,... (1,2,3,4)"},
         std::array{"--grids",
                    "points of the grids of the other methods: A,B,..., or none (25,50,...,800)"}}) {
-    command->add_option_function<std::string>(
-        flag,
-        [arguments, flag = std::string(flag)](const std::string& text) { arguments->lists[flag] = text; },
-        help);
+    add_text(*command, flag, arguments->lists, flag, help);
   }
   command->add_option("--samples", options.samples, "parameter values at which errors are measured")
       ->capture_default_str();
@@ -123,9 +119,6 @@ void add_accuracy(CLI::App& program, int& exit_code) {
   add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n  eigentrail accuracy data/scenes/rotating_mass.toml --tolerances 1e-4,1e-8 -o study.h5");
-  command->callback([arguments, &exit_code] {
-    exit_code = alone([&](Team& team) { return run_accuracy(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

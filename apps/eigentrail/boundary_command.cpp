@@ -90,7 +90,7 @@ void print_corners(const BoundaryOptions& options, const BoundaryResult& result)
 
 void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
   const BoundaryOptions& options = setup.options;
-  if (!setup.scene.title.empty()) std::printf("%s\n", printable(setup.scene.title).c_str());
+  print_title(setup.scene.title);
   std::printf("  window  %s %s, %s %s, tolerance %s\n", options.trace.parameter.c_str(),
               range_text(options.trace.from, options.trace.to).c_str(), options.second.c_str(),
               range_text(options.second_from, options.second_to).c_str(),
@@ -168,12 +168,13 @@ SharedJob boundary_job(std::shared_ptr<const BoundarySetup> setup, SharedRun run
 }
 
 int run_boundary(BoundaryArguments& arguments, Team& team) {
+  arguments.output.name_like(arguments.scene, "_boundary", ".h5");
   Scene scene = given_scene(arguments);
   read_ranges(scene, arguments);
   const auto setup =
       std::make_shared<const BoundarySetup>(prepare_boundary(std::move(scene), arguments.request));
   warn_of_unused(setup->scene, *setup->model);
-  check_boundary_names(setup->scene, setup->options);
+  check_boundary_names(*setup);
   return carry_out(boundary_job(setup, shared_run(*setup, arguments.request), arguments.output, team),
                    arguments.output, team);
 }
@@ -202,10 +203,10 @@ SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output, co
 }
 
 void add_boundary(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<BoundaryArguments>();
+  const auto [command, arguments] = add_command<BoundaryArguments>(
+      program, exit_code, in_team(run_boundary, together), "boundary",
+      "stability boundaries in two parameters: flutter, divergence, or a damping ratio");
   BoundaryRequest& request = arguments->request;
-  CLI::App* command = program.add_subcommand(
-      "boundary", "stability boundaries in two parameters: flutter, divergence, or a damping ratio");
   add_scene(*command, *arguments);
   add_output(*command, arguments->output, "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
   add_part(*command, arguments->output);
@@ -229,10 +230,6 @@ void add_boundary(CLI::App& program, int& exit_code) {
   command->footer(
       "Example:\n"
       "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --from 200 --to 3000 -o flutter.h5");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->scene, "_boundary", ".h5");
-    exit_code = together([&](Team& team) { return run_boundary(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
@@ -114,9 +113,8 @@ int run_eval(const EvalArguments& arguments) {
 }  // namespace
 
 void add_eval(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<EvalArguments>();
-  CLI::App* command =
-      program.add_subcommand("eval", "eigenvalues at any parameter of a trace, from its dense output");
+  const auto [command, arguments] = add_command<EvalArguments>(
+      program, exit_code, run_eval, "eval", "eigenvalues at any parameter of a trace, from its dense output");
   command->add_option("FILE", arguments->file, "loci file")->required();
   command
       ->add_option(
@@ -128,7 +126,6 @@ void add_eval(CLI::App& program, int& exit_code) {
       "print parameter,mode,real,imag, then natural and damped frequency (rad/s), damping ratio, logarithmic "
       "decrement, errors of the data if there are any, and trimmed parameters");
   command->footer("Example:\n  eigentrail eval blade.h5 --at 12.5 40 --csv");
-  command->callback([arguments, &exit_code] { exit_code = run_eval(*arguments); });
 }
 
 }  // namespace eigentrail::app

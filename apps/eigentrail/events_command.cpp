@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -130,9 +129,8 @@ int run_events(const EventsArguments& arguments) {
 }  // namespace
 
 void add_events(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<EventsArguments>();
-  CLI::App* command = program.add_subcommand(
-      "events",
+  const auto [command, arguments] = add_command<EventsArguments>(
+      program, exit_code, run_events, "events",
       "special points of a trace: flutter, divergence, resonances, collisions, crossings, veerings, folds");
   command->add_option("FILE", arguments->file, "loci file")->required();
   const auto [csv, json] = add_formats(*command, arguments->format, "print kind,parameter,real,imag,modes");
@@ -141,7 +139,6 @@ void add_events(CLI::App& program, int& exit_code) {
       ->excludes(json);
   command->footer(
       "Examples:\n  eigentrail events blade.h5 --csv\n  eigentrail events blade.h5 --sensitivity");
-  command->callback([arguments, &exit_code] { exit_code = run_events(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "commands.hpp"
 #include "explain.hpp"
@@ -26,9 +25,9 @@ int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solv
 }  // namespace
 
 void add_explain(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<ExplainArguments>();
-  CLI::App* command =
-      program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
+  const auto [command, arguments] =
+      add_command<ExplainArguments>(program, exit_code, factoring(run_explain), "explain",
+                                    "effects, structure, sizes and chosen solvers of a scene");
   add_scene(*command, *arguments);
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "rank the effects by their influence on each mode where the trace begins");
@@ -37,10 +36,6 @@ void add_explain(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  eigentrail explain data/scenes/rotating_mass.toml\n"
       "  eigentrail explain data/scenes/rotating_mass.toml --sensitivity --without drag");
-  command->callback([arguments, &exit_code] {
-    exit_code =
-        factoring_together([&](const SparseSolverMaker& solver) { return run_explain(*arguments, solver); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -82,7 +81,8 @@ bool ends_in(const std::string& path, const char* ending) {
   return std::filesystem::path(path).extension() == ending;
 }
 
-int run_export(const ExportArguments& arguments) {
+int run_export(ExportArguments& arguments) {
+  arguments.output.name_like(arguments.file, arguments.json ? ".json" : "_csv");
   if (arguments.points == 1 || arguments.points < 0)
     throw InputError("--points " + std::to_string(arguments.points) + ": expected two or more");
   if (arguments.csv && arguments.json) throw InputError("--csv and --json: expected one of them");
@@ -105,9 +105,9 @@ int run_export(const ExportArguments& arguments) {
 }  // namespace
 
 void add_export(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command = program.add_subcommand(
-      "export", "a trace as tables: loci, events, stable ranges, mode shapes as CSV or JSON");
+  const auto [command, arguments] = add_command<ExportArguments>(
+      program, exit_code, run_export, "export",
+      "a trace as tables: loci, events, stable ranges, mode shapes as CSV or JSON");
   command->add_option("FILE", arguments->file, "loci file")->required();
   command->add_flag("--csv", arguments->csv, "write comma-separated values (the default)");
   command->add_flag("--json", arguments->json, "write one file with all tables as lists of objects");
@@ -122,10 +122,6 @@ void add_export(CLI::App& program, int& exit_code) {
   command->footer(
       "Examples:\n  eigentrail export blade.h5 --csv -o tables\n  eigentrail export blade.h5 --points 500 -o "
       "blade.csv");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->file, arguments->json ? ".json" : "_csv");
-    exit_code = run_export(*arguments);
-  });
 }
 
 }  // namespace eigentrail::app

@@ -89,7 +89,7 @@ void print_summary(const MapSetup& setup, const StabilityMap& map, double second
     const std::string& unit = trace.scene.parameters.at(name).unit;
     return name + " " + exact_text(from) + " -> " + exact_text(to) + (unit.empty() ? "" : " " + unit);
   };
-  if (!trace.scene.title.empty()) std::printf("%s\n", printable(trace.scene.title).c_str());
+  print_title(trace.scene.title);
   std::printf("  %d x %d cells: %s, %s, tolerance %s\n", options.n_second, options.n_first,
               window(options.second, options.from, options.to).c_str(),
               window(trace.options.parameter, trace.options.from, trace.options.to).c_str(),
@@ -155,6 +155,7 @@ SharedJob map_job(std::shared_ptr<const MapSetup> setup, SharedRun run, const Ou
 }
 
 int run_map(MapArguments& arguments, Team& team) {
+  arguments.output.name_like(arguments.scene, "_map", ".h5");
   read_grid(arguments.grid, arguments.window);
   Scene scene = given_scene(arguments);
   const Parameter second = parameter_called(scene, arguments.window.second);
@@ -188,9 +189,9 @@ SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output, const T
 }
 
 void add_map(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command =
-      program.add_subcommand("map", "stability over a window of two parameters: growing modes and margin");
+  const auto [command, arguments] =
+      add_command<MapArguments>(program, exit_code, in_team(run_map, together), "map",
+                                "stability over a window of two parameters: growing modes and margin");
   MapOptions& options = arguments->window;
   add_scene(*command, *arguments);
   command->add_option("--second", options.second, "name of the second parameter")->required();
@@ -214,10 +215,6 @@ void add_map(CLI::App& program, int& exit_code) {
       "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
       "40x80 -o "
       "drag.h5");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->scene, "_map", ".h5");
-    exit_code = together([&](Team& team) { return run_map(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -37,9 +36,9 @@ int run_merge(const MergeArguments& arguments, Team& team) {
 }  // namespace
 
 void add_merge(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command = program.add_subcommand(
-      "merge", "join the parts of a map, boundary or sweep that were computed with --part");
+  const auto [command, arguments] = add_command<MergeArguments>(
+      program, exit_code, in_team(run_merge, together), "merge",
+      "join the parts of a map, boundary or sweep that were computed with --part");
   command->add_option("FILES", arguments->files, "the files of all parts, in any order")->required();
   add_output(*command, arguments->output, "file to write")->required();
   add_output_flags(*command, arguments->output, {.resume = ""});
@@ -47,9 +46,6 @@ void add_merge(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  eigentrail merge part_1.h5 part_2.h5 -o drag.h5\n\n"
       "The parts come from the same command with --part 1/2 -o part_1.h5 and --part 2/2 -o part_2.h5.");
-  command->callback([arguments, &exit_code] {
-    exit_code = together([&](Team& team) { return run_merge(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

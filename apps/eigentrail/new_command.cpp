@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -46,8 +45,8 @@ int run_new(const NewArguments& arguments) {
 }  // namespace
 
 void add_new(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<NewArguments>();
-  CLI::App* command = program.add_subcommand("new", "write a commented scene to start from");
+  const auto [command, arguments] =
+      add_command<NewArguments>(program, exit_code, run_new, "new", "write a commented scene to start from");
   command->add_option("SCENE", arguments->output, "scene file to write (TOML)")->required();
   command
       ->add_option("--starter", arguments->starter,
@@ -56,7 +55,6 @@ void add_new(CLI::App& program, int& exit_code) {
                    "bearings; matrices: M, C, K")
       ->capture_default_str();
   command->footer("Examples:\n  eigentrail new blade.toml\n  eigentrail new flutter.toml --starter matrices");
-  command->callback([arguments, &exit_code] { exit_code = run_new(*arguments); });
 }
 
 }  // namespace eigentrail::app

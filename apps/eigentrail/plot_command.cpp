@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <optional>
 
 #include "commands.hpp"
@@ -168,8 +167,9 @@ std::vector<std::string> words(const PlotArguments& arguments) {
   return list;
 }
 
-int run_plot(const PlotArguments& arguments) {
-  const OutputChoice& output = arguments.output;
+int run_plot(PlotArguments& arguments) {
+  OutputChoice& output = arguments.output;
+  output.name_like(arguments.files.front(), ".svg");
   check_picture_name(output.path);
   check_new_output(output.path, output.force, {"picture of eigentrail", is_picture});
   const std::vector<std::string> candidates = interpreters();
@@ -190,9 +190,9 @@ int run_plot(const PlotArguments& arguments) {
 }  // namespace
 
 void add_plot(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command =
-      program.add_subcommand("plot", "a picture: Campbell diagram, root locus, map, ... as SVG, PDF, PNG");
+  const auto [command, arguments] =
+      add_command<PlotArguments>(program, exit_code, run_plot, "plot",
+                                 "a picture: Campbell diagram, root locus, map, ... as SVG, PDF, PNG");
   command->add_option("FILE", arguments->files, "a loci file, a map and its boundary, or an accuracy study")
       ->required();
   add_output(*command, arguments->output,
@@ -214,10 +214,6 @@ void add_plot(CLI::App& program, int& exit_code) {
       "  eigentrail plot blade.h5 --kind shape --at 40 --mode 2 -o flap.png\n"
       "  eigentrail plot drag.h5 flutter.h5 -o plane.pdf\n"
       "Python draws: EIGENTRAIL_PYTHON names another interpreter than python3.");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->files.front(), ".svg");
-    exit_code = run_plot(*arguments);
-  });
 }
 
 }  // namespace eigentrail::app

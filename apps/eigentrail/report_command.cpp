@@ -1,7 +1,6 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -25,8 +24,9 @@ void check_ending(const std::string& output) {
                    "'");
 }
 
-int run_report(const ReportArguments& arguments) {
-  const OutputChoice& output = arguments.output;
+int run_report(ReportArguments& arguments) {
+  OutputChoice& output = arguments.output;
+  output.name_like(arguments.files.front(), ".html");
   check_new_output(output.path, output.force, {"report of eigentrail", is_report});
   check_ending(output.path);
   write_durably(output.path, {report_page(arguments.files)}, output.existing());
@@ -40,9 +40,9 @@ int run_report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<ReportArguments>();
-  CLI::App* command = program.add_subcommand(
-      "report", "one HTML page: Campbell diagram, root locus, events, mode shapes; no network needed");
+  const auto [command, arguments] = add_command<ReportArguments>(
+      program, exit_code, run_report, "report",
+      "one HTML page: Campbell diagram, root locus, events, mode shapes; no network needed");
   command
       ->add_option("FILE", arguments->files,
                    "loci files, boundaries, maps or accuracy studies; several are shown together")
@@ -52,10 +52,6 @@ void add_report(CLI::App& program, int& exit_code) {
   command->footer(
       "Examples:\n  eigentrail report blade.h5 -o blade.html\n"
       "  eigentrail report blade.h5 blade_drag_20.h5 flutter.h5 -o compare.html");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->files.front(), ".html");
-    exit_code = run_report(*arguments);
-  });
 }
 
 }  // namespace eigentrail::app

@@ -21,6 +21,12 @@ void warn(const std::string& message) {
   std::fprintf(stderr, "eigentrail: warning: %s\n", printable(message).c_str());
 }
 
+void add_text(CLI::App& command, const std::string& flag, std::map<std::string, std::string>& texts,
+              const std::string& key, const std::string& help) {
+  command.add_option_function<std::string>(
+      flag, [&texts, key](const std::string& text) { texts[key] = text; }, help);
+}
+
 void add_settings(CLI::App& command, SceneArguments& arguments) {
   command
       .add_option(
@@ -41,9 +47,7 @@ void add_override(CLI::App& command, SceneArguments& arguments, const std::strin
     flag = "--" + key;
     std::replace(flag.begin(), flag.end(), '_', '-');
   }
-  command.add_option_function<std::string>(
-      flag, [&arguments, key](const std::string& text) { arguments.options[key] = text; },
-      help + " (overrides the scene)");
+  add_text(command, flag, arguments.options, key, help + " (overrides the scene)");
 }
 
 void add_overrides(CLI::App& command, SceneArguments& arguments, const std::vector<std::string>& keys) {

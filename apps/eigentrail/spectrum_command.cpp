@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <numbers>
 
 #include "commands.hpp"
@@ -113,7 +112,7 @@ void print_point(const ShownPoint& point) {
 
 void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& points) {
   const std::string& unit = setup.model->description().parameters.at(setup.options.parameter).unit;
-  if (!setup.scene.title.empty()) std::printf("%s\n", printable(setup.scene.title).c_str());
+  print_title(setup.scene.title);
   for (const ShownPoint& point : points) {
     std::printf("%s = %s%s\n", setup.options.parameter.c_str(), exact_text(point.p).c_str(),
                 (unit.empty() ? unit : " " + unit).c_str());
@@ -151,9 +150,9 @@ int run_spectrum(const SpectrumArguments& arguments, const SparseSolverMaker& so
 }  // namespace
 
 void add_spectrum(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<SpectrumArguments>();
-  CLI::App* command =
-      program.add_subcommand("spectrum", "eigenvalues at single values of the parameter, without a trace");
+  const auto [command, arguments] =
+      add_command<SpectrumArguments>(program, exit_code, factoring(run_spectrum), "spectrum",
+                                     "eigenvalues at single values of the parameter, without a trace");
   add_scene(*command, *arguments);
   command->add_option(
       "--at", arguments->at,
@@ -165,10 +164,6 @@ void add_spectrum(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  eigentrail spectrum data/scenes/rotating_mass.toml --at 40\n"
       "  eigentrail spectrum turbine.toml --at 8 12 --modes \"band = ['0.1 Hz', '3 Hz']\" --csv");
-  command->callback([arguments, &exit_code] {
-    exit_code =
-        factoring_together([&](const SparseSolverMaker& solver) { return run_spectrum(*arguments, solver); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -2,15 +2,14 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/accuracy/suggest.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "output.hpp"
 #include "records.hpp"
+#include "samples_info.hpp"
 #include "scene_arguments.hpp"
 
 namespace eigentrail::app {
@@ -24,13 +23,7 @@ struct SuggestArguments : SceneArguments {
 /// A scene, or the samples themselves: then a scene that names them and follows all modes on their range.
 Scene scene_of(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".h5") return read_scene(path);
-  const SampledData data = [&] {
-    try {
-      return read_samples(path);
-    } catch (const std::exception& error) {
-      throw InputError(path + ": " + error.what());
-    }
-  }();
+  const SampledData data = samples_in(path);
   const std::string file = std::filesystem::path(path).filename().string();
   const std::string& name = data.parameter_name;
   const bool known_name =
@@ -90,9 +83,8 @@ int run_suggest(const SuggestArguments& arguments) {
 }  // namespace
 
 void add_suggest(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<SuggestArguments>();
-  CLI::App* command =
-      program.add_subcommand("suggest", "at which values of the parameter to compute more samples");
+  const auto [command, arguments] = add_command<SuggestArguments>(
+      program, exit_code, run_suggest, "suggest", "at which values of the parameter to compute more samples");
   command->add_option("FILE", arguments->scene, "scene with a [sampled_family], or its samples (.h5)")
       ->required();
   add_settings(*command, *arguments);
@@ -105,7 +97,6 @@ void add_suggest(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  eigentrail suggest turbine.toml --modes \"band = ['0.1 Hz', '3 Hz']\"\n"
       "  eigentrail suggest samples.h5 --tolerance 1e-4 --count 1");
-  command->callback([arguments, &exit_code] { exit_code = run_suggest(*arguments); });
 }
 
 }  // namespace eigentrail::app

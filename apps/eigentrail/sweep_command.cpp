@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
@@ -139,6 +138,7 @@ SharedJob sweep_job(SharedRun run, const OutputChoice& output, const Team& team)
 }
 
 int run_sweep(SweepArguments& arguments, Team& team) {
+  arguments.output.name_like(arguments.scene, "_sweep");
   const Scene scene = given_scene(arguments);
   const Combinations runs = read_combinations(arguments, scene);
   const std::filesystem::path folder = arguments.output.path;
@@ -178,9 +178,9 @@ SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output, const
 }
 
 void add_sweep(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<SweepArguments>();
-  CLI::App* command = program.add_subcommand(
-      "sweep", "trace a scene for all combinations of values of some parameters, on all cores");
+  const auto [command, arguments] = add_command<SweepArguments>(
+      program, exit_code, in_team(run_sweep, together), "sweep",
+      "trace a scene for all combinations of values of some parameters, on all cores");
   add_scene(*command, *arguments);
   command
       ->add_option(
@@ -201,10 +201,6 @@ void add_sweep(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  eigentrail sweep data/scenes/rotating_mass.toml --vary drag=5,10,20 --vary a_n=500:500:2000 -o "
       "drag");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->scene, "_sweep");
-    exit_code = together([&](Team& team) { return run_sweep(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

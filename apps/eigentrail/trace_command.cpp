@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "commands.hpp"
@@ -120,7 +119,9 @@ void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
     std::printf("wrote %s and its scene %s\n", arguments.save_reduced.c_str(), scene.c_str());
 }
 
-int run_trace(const TraceArguments& arguments, const SparseSolverMaker& solver) {
+int run_trace(TraceArguments& arguments, const SparseSolverMaker& solver) {
+  arguments.output.name_like(arguments.scene, ".h5");
+  arguments.saving.existing = arguments.output.existing();
   if (std::isnan(arguments.saving.interval))
     throw InputError("--save-every: expected a number of seconds, found nan");
   TraceSetup setup = given_setup(arguments);
@@ -148,9 +149,9 @@ int run_trace(const TraceArguments& arguments, const SparseSolverMaker& solver) 
 }  // namespace
 
 void add_trace(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<TraceArguments>();
-  CLI::App* command =
-      program.add_subcommand("trace", "follow the eigenvalues of a scene and write a loci file");
+  const auto [command, arguments] =
+      add_command<TraceArguments>(program, exit_code, factoring(run_trace), "trace",
+                                  "follow the eigenvalues of a scene and write a loci file");
   add_scene(*command, *arguments);
   add_output(*command, arguments->output, "loci file to write (HDF5); default: SCENE.h5, here");
   CLI::Option* quiet =
@@ -180,12 +181,6 @@ void add_trace(CLI::App& program, int& exit_code) {
       "SIGINT and SIGTERM finish the point and save; the exit code is then 130 or 143. If the point takes "
       "more\n"
       "than a second, the program ends with the points up to the last save.");
-  command->callback([arguments, &exit_code] {
-    arguments->output.name_like(arguments->scene, ".h5");
-    arguments->saving.existing = arguments->output.existing();
-    exit_code =
-        factoring_together([&](const SparseSolverMaker& solver) { return run_trace(*arguments, solver); });
-  });
 }
 
 }  // namespace eigentrail::app

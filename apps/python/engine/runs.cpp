@@ -116,7 +116,7 @@ Outcome run_boundary(const Scene& scene, const std::string& second, double from,
     const BoundarySetup setup = prepare_boundary(
         scene, {second, from, to, parameter, first_from, first_to, tolerance, damping_ratio, lines});
     outcome.remarks = remarks_on(setup.scene, *setup.model);
-    check_boundary_names(setup.scene, setup.options);
+    check_boundary_names(setup);
     const BoundaryResult result = find_boundaries(
         *setup.model, setup.options, [&](double share, int points) { watch.require(share, points); });
     if (result.status != BoundaryStatus::completed) outcome.message = result.message;
