@@ -1,5 +1,6 @@
 #include "output_choice.hpp"
 
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 
@@ -59,6 +60,12 @@ void check_output(const std::string& path, bool force, const OutputFormat& forma
 void check_new_output(const std::string& path, bool force, const OutputFormat& format) {
   check_output(path, force, format);
   check_can_create(path);
+}
+
+std::string extension_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
 }
 
 bool begins_with(const std::string& path, std::string_view text) {

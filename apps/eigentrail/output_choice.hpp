@@ -63,6 +63,9 @@ void check_output(const std::string& path, bool force, const OutputFormat& forma
 /// The same, and throws InputError if no file can be created there.
 void check_new_output(const std::string& path, bool force, const OutputFormat& format);
 
+/// The ending of a path in small letters: ".h5".
+std::string extension_of(const std::string& path);
+
 /// Whether the first bytes of a file are these.
 bool begins_with(const std::string& path, std::string_view text);
 

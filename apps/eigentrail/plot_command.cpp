@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -37,16 +36,10 @@ struct PictureKind {
 constexpr std::array<PictureKind, 3> picture_kinds{
     {{".svg", "<?xml"}, {".pdf", "%PDF"}, {".png", "\x89PNG"}}};
 
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 const PictureKind* kind_of(const std::string& path) {
   const auto* const found =
       std::find_if(picture_kinds.begin(), picture_kinds.end(),
-                   [ending = ending_of(path)](const PictureKind& kind) { return kind.ending == ending; });
+                   [ending = extension_of(path)](const PictureKind& kind) { return kind.ending == ending; });
   return found == picture_kinds.end() ? nullptr : found;
 }
 
@@ -55,7 +48,7 @@ void check_picture_name(const std::string& output) {
   std::string known;
   for (const PictureKind& kind : picture_kinds)
     known += (known.empty() ? "" : ", ") + std::string(kind.ending);
-  const std::string page = ending_of(output).starts_with(".htm") ? "; eigentrail report writes pages" : "";
+  const std::string page = extension_of(output).starts_with(".htm") ? "; eigentrail report writes pages" : "";
   throw InputError(output + ": expected a name that ends in one of " + known + page);
 }
 

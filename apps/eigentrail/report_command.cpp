@@ -1,4 +1,3 @@
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 
@@ -17,8 +16,7 @@ struct ReportArguments {
 
 /// A page is HTML whatever its name: "-o page.png" is a mistake.
 void check_ending(const std::string& output) {
-  std::string ending = std::filesystem::path(output).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = extension_of(output);
   if (ending.empty() || ending == ".html" || ending == ".htm") return;
   throw InputError(output + ": a report is a page in HTML; give a name that ends in .html, found '" + ending +
                    "'");

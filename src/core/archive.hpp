@@ -33,7 +33,7 @@ class ArchiveError : public std::runtime_error {
 template <class Self, class T>
 concept SameAs = std::is_same_v<std::remove_const_t<Self>, T>;
 
-/// An aggregate all of whose members are archived, in their order, says how many it has, up to 19, by the
+/// An aggregate all of whose members are archived, in their order, says how many it has, by the
 /// declaration of a function beside it: Members<2> archived(const Pair*). Another number than its own does
 /// not compile.
 template <int count>
@@ -48,7 +48,6 @@ concept AllArchived = requires(const T* value) {
 template <class Self, class Visit>
 void visit_members(Self& self, Visit& visit) {
   constexpr int count = decltype(archived(&self))::value;
-  static_assert(count >= 1 && count <= 19);
   if constexpr (count == 1) {
     auto& [a] = self;
     visit(a);
@@ -70,24 +69,6 @@ void visit_members(Self& self, Visit& visit) {
   } else if constexpr (count == 7) {
     auto& [a, b, c, d, e, f, g] = self;
     visit(a, b, c, d, e, f, g);
-  } else if constexpr (count == 8) {
-    auto& [a, b, c, d, e, f, g, h] = self;
-    visit(a, b, c, d, e, f, g, h);
-  } else if constexpr (count == 9) {
-    auto& [a, b, c, d, e, f, g, h, i] = self;
-    visit(a, b, c, d, e, f, g, h, i);
-  } else if constexpr (count == 10) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = self;
-    visit(a, b, c, d, e, f, g, h, i, j);
-  } else if constexpr (count == 11) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = self;
-    visit(a, b, c, d, e, f, g, h, i, j, k);
-  } else if constexpr (count == 12) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = self;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (count == 13) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = self;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m);
   } else if constexpr (count == 14) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = self;
     visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
@@ -106,6 +87,8 @@ void visit_members(Self& self, Visit& visit) {
   } else if constexpr (count == 19) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = self;
     visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+  } else {
+    static_assert(count == 1, "a size without a line here");
   }
 }
 

@@ -10,6 +10,14 @@ std::vector<std::int64_t> counted(std::size_t count) {
   return numbers;
 }
 
+Matrix read_matrix(const Hdf5File& file, const std::string& name, std::size_t rows, std::size_t columns) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  file.require_fit(file.shape(name) == Shape{rows, columns}, name);
+  const std::vector<double> data = rows * columns == 0 ? std::vector<double>() : file.read_real(name);
+  return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(rows),
+                                    static_cast<Eigen::Index>(columns));
+}
+
 void require_other_names(const Scene& scene, const std::vector<std::string>& parameters,
                          const Hdf5Writer& written, const std::string& of, const std::string& file) {
   for (const std::string& name : parameters) {

@@ -1,5 +1,5 @@
-// Writes complete datasets with the labels that all files of eigentrail have: units, a long name, and a
-// dimension scale for every dimension.
+// Datasets as a whole. They are written with the labels that all files of eigentrail have: units, a long
+// name, and a dimension scale for every dimension.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/hdf5_file.hpp"
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/scene/scene.hpp"
 
@@ -102,6 +103,16 @@ void write_column(Hdf5Writer& file, const DatasetLabel& label, const std::vector
   write_dataset(file, label, dimensions, column_of(std::span<const Record>(records), field),
                 std::move(attributes));
 }
+
+/// The entries of a matrix, row by row.
+template <class Scalar>
+std::vector<Scalar> row_major(const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& matrix) {
+  const auto entries = matrix.transpose().reshaped();
+  return {entries.begin(), entries.end()};
+}
+
+/// A dataset of this size. Throws Hdf5Error if it has another one.
+Matrix read_matrix(const Hdf5File& file, const std::string& name, std::size_t rows, std::size_t columns);
 
 /// Throws InputError if one of these parameters has the name of a dataset of `written`, a file in which they
 /// have other names. `of` and `file` are for the message: "plane", "the boundary file".

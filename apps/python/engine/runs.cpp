@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
 #include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/model/build.hpp"
@@ -70,41 +69,35 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
       });
 }
 
-Outcome run_trace(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
-                  int threads, const py::object& progress) {
-  Watch watch(progress);
-  Outcome outcome;
-  TraceResult result;
-  const std::string file = watched(watch, [&]() -> std::string {
-    TraceSetup setup = prepare(scene, options, source, watch);
-    outcome.remarks = remarks_on(setup.scene, *setup.model);
-    check_parameter_name(setup.scene, setup.options.parameter);
-    project_if_large(setup.model, setup.options);
-    setup.options.threads =
-        threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    TracedFile traced = trace_in_memory(setup, [&](const Checkpoint& checkpoint, int points) {
-      const auto& [from, to] = std::pair(setup.options.from, setup.options.to);
-      return watch((checkpoint.so_far().reached - from) / (to - from), points);
-    });
-    result = std::move(traced.result);
-    return std::move(traced.bytes);
-  });
-  watch.rethrow();
-  outcome.file = py::bytes(file);
-  outcome.interrupted = watch.interrupted();
-  if (result.status != TraceStatus::completed && result.status != TraceStatus::stopped)
-    outcome.message = result.message;
-  return outcome;
-}
-
 /// The file that `work` computes, unless it was stopped.
 template <class Work>
 Outcome computed(const py::object& progress, Work&& work) {
   Watch watch(progress);
   Outcome outcome;
   const std::string file = watched(watch, [&]() -> std::string { return work(watch, outcome); });
+  watch.rethrow();
   outcome.file = py::bytes(file);
   return outcome;
+}
+
+Outcome run_trace(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
+                  int threads, const py::object& progress) {
+  return computed(progress, [&](Watch& watch, Outcome& outcome) {
+    TraceSetup setup = prepare(scene, options, source, watch);
+    outcome.remarks = remarks_on(setup.scene, *setup.model);
+    check_parameter_name(setup.scene, setup.options.parameter);
+    project_if_large(setup.model, setup.options);
+    setup.options.threads = static_cast<int>(Threads(threads).size());
+    TracedFile traced = trace_in_memory(setup, [&](const Checkpoint& checkpoint, int points) {
+      const auto& [from, to] = std::pair(setup.options.from, setup.options.to);
+      return watch((checkpoint.so_far().reached - from) / (to - from), points);
+    });
+    outcome.interrupted = watch.interrupted();
+    const TraceStatus status = traced.result.status;
+    if (status != TraceStatus::completed && status != TraceStatus::stopped)
+      outcome.message = traced.result.message;
+    return std::move(traced.bytes);
+  });
 }
 
 Outcome run_boundary(const Scene& scene, const std::string& second, double from, double to,
