@@ -14,13 +14,13 @@ void clear_events(Hdf5Writer& file) {
 
 void write_events(Hdf5Writer& file, const std::vector<Event>& events, std::size_t first) {
   if (first >= events.size()) return;
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto write = [&](const char* name, auto field) {
     file.write_rows(name, first, column_of(std::span(events).subspan(first), field));
   };
   // A row is as long as the dimension; where an event has no such vector, it is not known.
   const auto row = [&file](const char* dimension, auto member) {
-    return [size = static_cast<Eigen::Index>(file.shape(dimension)[0]), member, nan](const Event& event) {
+    return [size = static_cast<Eigen::Index>(file.shape(dimension)[0]), member](const Event& event) {
       auto values = event.*member;
       const Eigen::Index known = values.size();
       values.conservativeResize(size);
