@@ -168,7 +168,7 @@ void print_reference(const ReferenceSet& reference, const std::string& parameter
 }  // namespace
 
 void print_study(const TraceSetup& setup, const Study& study) {
-  if (!setup.scene.title.empty()) std::printf("%s\n", printable(setup.scene.title).c_str());
+  print_title(setup.scene.title);
   print_reference(study.reference, setup.options.parameter);
   print_traces(study.runs);
   print_rivals(study.runs);

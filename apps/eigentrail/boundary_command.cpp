@@ -1,21 +1,17 @@
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
-#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/stability/boundary.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "output.hpp"
-#include "parts.hpp"
-#include "progress_bar.hpp"
 #include "scene_arguments.hpp"
+#include "shared_job.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
@@ -23,7 +19,6 @@ namespace {
 
 struct BoundaryArguments : SceneArguments {
   OutputChoice output;
-  std::optional<Part> part;
   BoundaryRequest request;
   std::string from, to;  ///< of the second parameter
   std::optional<std::string> first_from, first_to;
@@ -33,9 +28,7 @@ struct BoundaryArguments : SceneArguments {
 void read_ranges(const Scene& scene, BoundaryArguments& arguments) {
   BoundaryRequest& request = arguments.request;
   const auto number = [&scene](const std::string& option, const std::string& text, const std::string& name) {
-    // An unknown name is reported where the options are checked.
-    const auto index = scene.parameters.index(name);
-    return read_value(option, text, index ? scene.parameters[static_cast<std::size_t>(*index)] : Parameter{});
+    return read_value(option, text, parameter_called(scene, name));
   };
   request.from = number("--from", arguments.from, request.second);
   request.to = number("--to", arguments.to, request.second);
@@ -97,7 +90,7 @@ void print_corners(const BoundaryOptions& options, const BoundaryResult& result)
 
 void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
   const BoundaryOptions& options = setup.options;
-  if (!setup.scene.title.empty()) std::printf("%s\n", printable(setup.scene.title).c_str());
+  print_title(setup.scene.title);
   std::printf("  window  %s %s, %s %s, tolerance %s\n", options.trace.parameter.c_str(),
               range_text(options.trace.from, options.trace.to).c_str(), options.second.c_str(),
               range_text(options.second_from, options.second_to).c_str(),
@@ -118,7 +111,7 @@ void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
 
 /// Follows the boundaries from what was found on all lines, writes them and prints a summary.
 int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const std::vector<std::string>& scans,
-                    const OutputChoice& output, Team& team, Workers& workers, double seconds) {
+                    const OutputChoice& output, const Team& team, Workers& workers, double seconds) {
   ProgressBar progress(output.quiet);
   BoundaryResult result =
       follow_boundaries(*setup.model, setup.options, scans, workers,
@@ -132,11 +125,7 @@ int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const std:
         ": no line of the window could be begun; choose another range, or another starting position; " +
         result.message);
   }
-  write_durably(output.path, {boundary_file(setup, result), run_mark(run)}, existing(output.force));
-  if (!output.quiet) {
-    print_summary(setup, result);
-    std::printf("wrote %s\n", output.path.c_str());
-  }
+  write_result(output, run, boundary_file(setup, result), [&] { print_summary(setup, result); });
   if (result.status == BoundaryStatus::completed) return done;
   std::fprintf(stderr, "eigentrail: %s; what was found is in %s\n", result.message.c_str(),
                output.path.c_str());
@@ -164,43 +153,35 @@ SharedRun shared_run(const BoundarySetup& setup, BoundaryRequest request) {
   return run;
 }
 
-void check_boundary_output(const OutputChoice& output) {
-  check_output(output.path, output.force, {boundary_format, "boundary file"});
-  check_can_create(output.path);
+SharedJob boundary_job(std::shared_ptr<const BoundarySetup> setup, SharedRun run, const OutputChoice& output,
+                       const Team& team) {
+  SharedJob job{std::move(run), hdf5_format(boundary_format, "boundary file")};
+  job.compute = [setup](const std::vector<std::size_t>& lines, Workers& workers, ProgressBar& progress) {
+    return scan_boundaries(*setup->model, setup->options, lines, workers,
+                           [&progress](double share, int points) { progress.update(share, points); });
+  };
+  job.finish = [setup, run = job.run, &output, &team](const std::vector<std::string>& scans, Workers& workers,
+                                                      std::optional<double> seconds) {
+    return finish_boundary(*setup, run, scans, output, team, workers, seconds.value_or(0.0));
+  };
+  return job;
 }
 
 int run_boundary(BoundaryArguments& arguments, Team& team) {
-  OutputChoice& output = arguments.output;
+  arguments.output.name_like(arguments.scene, "_boundary", ".h5");
   Scene scene = given_scene(arguments);
   read_ranges(scene, arguments);
-  const BoundarySetup setup = prepare_boundary(std::move(scene), arguments.request);
-  warn_of_unused(setup.scene, *setup.model);
-  check_boundary_names(setup.scene, setup.options);
-  const SharedRun run = shared_run(setup, arguments.request);
-  if (has_ended(output, team, run, arguments.part)) return done;
-  const auto unfinished = unfinished_run(output, run, arguments.part, team);
-  if (team.leads()) arguments.part ? check_part_output(output) : check_boundary_output(output);
-  SavingWorkers workers(team.workers(0), *unfinished);
-  const std::vector<std::size_t> lines =
-      arguments.part.value_or(Part{}).pieces(boundary_lines(setup.options));
-  ProgressBar progress(output.quiet);
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<std::string> scans =
-      scan_boundaries(*setup.model, setup.options, lines, workers,
-                      [&progress](double share, int points) { progress.update(share, points); });
-  progress.finish();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto finish = [&]() -> int {
-    if (!arguments.part) return finish_boundary(setup, run, scans, output, team, workers, seconds);
-    return team.leads() ? write_part(output, run, *arguments.part, std::move(scans)) : done;
-  };
-  return team.leads() ? end_run(*unfinished, finish) : finish();
+  const auto setup =
+      std::make_shared<const BoundarySetup>(prepare_boundary(std::move(scene), arguments.request));
+  warn_of_unused(setup->scene, *setup->model);
+  check_boundary_names(*setup);
+  return carry_out(boundary_job(setup, shared_run(*setup, arguments.request), arguments.output, team),
+                   arguments.output, team);
 }
 
 }  // namespace
 
-int merge_boundary(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
-                   Team& team) {
+SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
   BoundaryRequest request;
   request.second = run.setting("--second").value_or("");
   request.from = number_of(run, "--from");
@@ -217,21 +198,18 @@ int merge_boundary(const SharedRun& run, const std::vector<std::string>& pieces,
     throw InputError(run.scene_path +
                      ": the files that the scene names have changed since the parts were "
                      "computed; restore them, or repeat the parts");
-  const BoundarySetup setup = prepare_boundary(std::move(scene), request);
-  if (team.leads()) check_boundary_output(output);
-  const auto workers = team.workers(0);
-  return finish_boundary(setup, run, pieces, output, team, *workers, 0.0);
+  return boundary_job(std::make_shared<const BoundarySetup>(prepare_boundary(std::move(scene), request)), run,
+                      output, team);
 }
 
 void add_boundary(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<BoundaryArguments>();
+  const auto [command, arguments] = add_command<BoundaryArguments>(
+      program, exit_code, in_team(run_boundary, together), "boundary",
+      "stability boundaries in two parameters: flutter, divergence, or a damping ratio");
   BoundaryRequest& request = arguments->request;
-  CLI::App* command = program.add_subcommand(
-      "boundary", "stability boundaries in two parameters: flutter, divergence, or a damping ratio");
   add_scene(*command, *arguments);
-  auto* output = command->add_option("-o,--output", arguments->output.path,
-                                     "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
-  add_part(*command, arguments->part);
+  add_output(*command, arguments->output, "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
+  add_part(*command, arguments->output);
   command->add_option("--second", request.second, "name of the second parameter")->required();
   command->add_option("--from", arguments->from, "where its range begins, in its unit")->required();
   command->add_option("--to", arguments->to, "where its range ends")->required();
@@ -252,11 +230,6 @@ void add_boundary(CLI::App& program, int& exit_code) {
   command->footer(
       "Example:\n"
       "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --from 200 --to 3000 -o flutter.h5");
-  command->callback([arguments, output, &exit_code] {
-    if (output->count() == 0)
-      arguments->output.path = default_output(arguments->scene, "_boundary", arguments->part);
-    exit_code = together([&](Team& team) { return run_boundary(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -1,13 +1,12 @@
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "frequency_unit.hpp"
 #include "output.hpp"
+#include "printed_format.hpp"
 #include "ranges.hpp"
 #include "values.hpp"
 
@@ -17,8 +16,7 @@ namespace {
 struct EvalArguments {
   std::string file;
   std::vector<std::string> at;
-  bool csv = false;
-  bool json = false;
+  PrintedFormat format;
 };
 
 /// An eigenvalue at a value of the parameter.
@@ -58,45 +56,24 @@ std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double
   return values;
 }
 
-/// The numbers of an eigenvalue that rows of CSV and JSON hold, by their names. Frequencies are in rad/s.
-std::vector<std::pair<std::string, double>> numbers_of(const LociFile& loci, const Evaluated& value) {
-  const double natural = std::abs(value.s);
-  std::vector<std::pair<std::string, double>> numbers{{"real", value.s.real()},
-                                                      {"imag", value.s.imag()},
-                                                      {"natural_frequency", natural},
-                                                      {"damped_frequency", std::abs(value.s.imag())},
-                                                      {"damping_ratio", -value.s.real() / natural + 0.0},
-                                                      {"log_decrement", log_decrement(value.s)}};
-  if (loci.data_errors) {
-    numbers.emplace_back("interpolation_error", value.interpolation);
-    numbers.emplace_back("digits_error", value.digits);
-  }
-  for (std::size_t i = 0; i < loci.trimmed.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    numbers.emplace_back(loci.trimmed[i].name, at < value.trimmed.size() ? value.trimmed[at] : NAN);
-  }
-  return numbers;
-}
-
-void print_csv(const LociFile& loci, const std::vector<Evaluated>& values) {
-  std::string heading = "parameter,mode";
-  for (const auto& [name, number] : numbers_of(loci, {})) heading += "," + name;
-  std::printf("%s\n", heading.c_str());
+/// What CSV and JSON hold. Frequencies are in rad/s.
+Records records_of(const LociFile& loci, const std::vector<Evaluated>& values) {
+  Records records{{"parameter", "mode", "real", "imag", "natural_frequency", "damped_frequency",
+                   "damping_ratio", "log_decrement"}};
+  if (loci.data_errors)
+    records.columns.insert(records.columns.end(), {"interpolation_error", "digits_error"});
+  for (const TrimmedParameter& trimmed : loci.trimmed) records.columns.push_back(trimmed.name);
   for (const Evaluated& value : values) {
-    std::string line = exact_text(value.p) + "," + value.mode;
-    for (const auto& [name, number] : numbers_of(loci, value)) line += "," + exact_text(number);
-    std::printf("%s\n", line.c_str());
+    const double natural = std::abs(value.s);
+    records.rows.push_back({value.p, value.mode, value.s.real(), value.s.imag(), natural,
+                            std::abs(value.s.imag()), -value.s.real() / natural + 0.0,
+                            log_decrement(value.s)});
+    std::vector<Cell>& row = records.rows.back();
+    if (loci.data_errors) row.insert(row.end(), {value.interpolation, value.digits});
+    row.insert(row.end(), value.trimmed.begin(), value.trimmed.end());
+    row.resize(records.columns.size(), NAN);
   }
-}
-
-void print_json(const LociFile& loci, const std::vector<Evaluated>& values) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const Evaluated& value : values) {
-    nlohmann::ordered_json row{{"parameter", value.p}, {"mode", value.mode}};
-    for (const auto& [name, number] : numbers_of(loci, value)) row[name] = number;
-    rows.push_back(std::move(row));
-  }
-  std::printf("%s\n", rows.dump(2).c_str());
+  return records;
 }
 
 void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values, const FrequencyUnit& unit) {
@@ -125,10 +102,8 @@ int run_eval(const EvalArguments& arguments) {
   const Parameter parameter = parameter_of_file(loci.parameter, loci.parameter_unit);
   // Throws before anything is printed.
   const std::vector<Evaluated> values = all_values(loci, read_values("--at", arguments.at, parameter));
-  if (arguments.csv) {
-    print_csv(loci, values);
-  } else if (arguments.json) {
-    print_json(loci, values);
+  if (arguments.format) {
+    print(records_of(loci, values), arguments.format);
   } else {
     print_for_people(loci, values, frequency_unit(parameter));
   }
@@ -138,22 +113,19 @@ int run_eval(const EvalArguments& arguments) {
 }  // namespace
 
 void add_eval(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<EvalArguments>();
-  CLI::App* command =
-      program.add_subcommand("eval", "eigenvalues at any parameter of a trace, from its dense output");
+  const auto [command, arguments] = add_command<EvalArguments>(
+      program, exit_code, run_eval, "eval", "eigenvalues at any parameter of a trace, from its dense output");
   command->add_option("FILE", arguments->file, "loci file")->required();
   command
       ->add_option(
           "--at", arguments->at,
           "parameter values, in the parameter's unit: 40, 10,20, 0:5:40 (begin:step:end), \"100 rpm\"")
       ->required();
-  auto* csv = command->add_flag(
-      "--csv", arguments->csv,
+  add_formats(
+      *command, arguments->format,
       "print parameter,mode,real,imag, then natural and damped frequency (rad/s), damping ratio, logarithmic "
       "decrement, errors of the data if there are any, and trimmed parameters");
-  command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
   command->footer("Example:\n  eigentrail eval blade.h5 --at 12.5 40 --csv");
-  command->callback([arguments, &exit_code] { exit_code = run_eval(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -8,30 +7,28 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
+#include "printed_format.hpp"
 
 namespace eigentrail::app {
 namespace {
 
 struct EventsArguments {
   std::string file;
-  bool csv = false;
-  bool json = false;
+  PrintedFormat format;
   bool sensitivity = false;
 };
 
-void print_events_csv(const LociFile& loci) {
-  const bool intervals = loci.data_errors.has_value();
-  std::printf("kind,parameter,real,imag,modes%s\n", intervals ? ",interval_from,interval_to" : "");
+Records records_of(const LociFile& loci) {
+  Records records{{"kind", "parameter", "real", "imag", "modes"}};
+  if (loci.data_errors) records.columns.insert(records.columns.end(), {"interval_from", "interval_to"});
   for (std::size_t i = 0; i < loci.events.size(); ++i) {
     const LociEvent& event = loci.events[i];
-    std::printf("%s,%s,%s,%s,%s", event.kind.c_str(), exact_text(event.parameter).c_str(),
-                exact_text(event.s.real()).c_str(), exact_text(event.s.imag()).c_str(), event.modes.c_str());
-    if (intervals) {
-      const EventInterval& interval = loci.data_errors->intervals[i];
-      std::printf(",%s,%s", exact_text(interval.from).c_str(), exact_text(interval.to).c_str());
-    }
-    std::printf("\n");
+    records.rows.push_back({event.kind, event.parameter, event.s.real(), event.s.imag(), event.modes});
+    if (!loci.data_errors) continue;
+    const EventInterval& interval = loci.data_errors->intervals[i];
+    records.rows.back().insert(records.rows.back().end(), {interval.from, interval.to});
   }
+  return records;
 }
 
 /// The interval of an event; null if it has none.
@@ -67,7 +64,7 @@ void print_events_json(const LociFile& loci) {
     }
     rows.push_back(std::move(row));
   }
-  std::printf("%s\n", rows.dump(2).c_str());
+  print_text_of(rows);
 }
 
 /// The remark on an event; empty if this version of the program does not know its kind.
@@ -117,9 +114,9 @@ void print_sensitivities(const LociFile& loci) {
 
 int run_events(const EventsArguments& arguments) {
   const LociFile loci = read_loci(arguments.file);
-  if (arguments.csv) {
-    print_events_csv(loci);
-  } else if (arguments.json) {
+  if (arguments.format.csv) {
+    print(records_of(loci), arguments.format);
+  } else if (arguments.format.json) {
     print_events_json(loci);
   } else if (arguments.sensitivity) {
     print_sensitivities(loci);
@@ -132,19 +129,16 @@ int run_events(const EventsArguments& arguments) {
 }  // namespace
 
 void add_events(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<EventsArguments>();
-  CLI::App* command = program.add_subcommand(
-      "events",
+  const auto [command, arguments] = add_command<EventsArguments>(
+      program, exit_code, run_events, "events",
       "special points of a trace: flutter, divergence, resonances, collisions, crossings, veerings, folds");
   command->add_option("FILE", arguments->file, "loci file")->required();
-  auto* csv = command->add_flag("--csv", arguments->csv, "print kind,parameter,real,imag,modes");
-  auto* json = command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
+  const auto [csv, json] = add_formats(*command, arguments->format, "print kind,parameter,real,imag,modes");
   command->add_flag("--sensitivity", arguments->sensitivity, "print how they depend on every parameter")
       ->excludes(csv)
       ->excludes(json);
   command->footer(
       "Examples:\n  eigentrail events blade.h5 --csv\n  eigentrail events blade.h5 --sensitivity");
-  command->callback([arguments, &exit_code] { exit_code = run_events(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -50,16 +50,14 @@ void print_parameters(std::FILE* to, const Model& model, int traced) {
                                   : "= " + rounded(si[at], 9) + " " + unit_in_expressions(parameters[i]);
     rows.push_back({"  " + parameters[i].name, rounded(declared[at], 12), parameters[i].unit, in_si, note});
   }
-  std::fprintf(to, "parameters\n");
-  print_table(rows, to);
+  print_section(to, "parameters", rows);
 }
 
 /// What is known of the data of the model: samples and their interpolant.
 void print_data(std::FILE* to, const Model& model) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [label, text] : model.description().data) rows.push_back({"  " + label, printable(text)});
-  if (!rows.empty()) std::fprintf(to, "data\n");
-  print_table(rows, to);
+  print_section(to, "data", rows);
 }
 
 /// What is recorded of an effect, and its share of all operations of a linearization.
@@ -94,8 +92,6 @@ void print_effects(std::FILE* to, const Model& model) {
 
 /// Lists the conditions of the trim, and the values of their unknowns at the beginning.
 void print_trims(std::FILE* to, const Model& model, const PathPoint& point) {
-  if (model.n_trims() == 0) return;
-  std::fprintf(to, "trim: unknown parameters, constant in the motion, and what holds at the equilibrium\n");
   const bool computed = point.status == PointStatus::computed;
   std::vector<std::vector<std::string>> rows;
   Eigen::Index row = model.n_constraints();
@@ -105,16 +101,15 @@ void print_trims(std::FILE* to, const Model& model, const PathPoint& point) {
     rows.push_back({"  " + parameter.name, trim.condition,
                     (computed ? "" : "guess ") + rounded(value, 8) + " " + parameter.unit});
   }
-  print_table(rows, to);
+  print_section(to, "trim: unknown parameters, constant in the motion, and what holds at the equilibrium",
+                rows);
 }
 
 /// Lists the states that elements have of their own.
 void print_states(std::FILE* to, const Model& model) {
   int count = 0;
   for (const Effect& effect : model.description().effects) count += effect.states;
-  if (count == 0) return;
   const ModelDescription& description = model.description();
-  std::fprintf(to, "states of elements, of first order\n");
   std::vector<std::vector<std::string>> rows;
   std::size_t next = description.coordinate_names.size() - static_cast<std::size_t>(count);
   for (const EffectHelp& help : effect_reference()) {
@@ -125,7 +120,7 @@ void print_states(std::FILE* to, const Model& model) {
                       description.coordinate_units[next],
                       help.states[static_cast<std::size_t>(i) % help.states.size()].help});
   }
-  print_table(rows, to);
+  print_section(to, "states of elements, of first order", rows);
 }
 
 /// Prints the effects for each mode, ordered by their influence on its eigenvalue.
@@ -230,7 +225,6 @@ void print_structure(std::FILE* to, const Structure& structure, bool has_constra
                                                                  : "skew C (gyroscopic)")
                         : structure.damped   ? "symmetric C"
                                              : "no C";
-  std::fprintf(to, "structure of the pencil\n");
   std::vector<std::vector<std::string>> rows(
       {{"  mass", structure.symmetric_mass ? "symmetric M" : "unsymmetric M", along(structure.constant_mass)},
        {"  damping", damping,
@@ -239,7 +233,7 @@ void print_structure(std::FILE* to, const Structure& structure, bool has_constra
        {"  constraints", has_constraints ? "A" : "none",
         has_constraints ? along(structure.constant_constraints) : ""}});
   if (!in_parts.empty()) rows.push_back({"  parts", in_parts, ""});
-  print_table(rows, to);
+  print_section(to, "structure of the pencil", rows);
 }
 
 /// The method that computes the modes, and its cost relative to one LU per mode.
@@ -258,7 +252,6 @@ std::string describe_route(const Structure& structure, const ModeWork& work) {
 void print_solvers(std::FILE* to, const Model& model, const Structure& structure, const ModeWork& work,
                    bool chosen, bool sparse, const Route& route) {
   const int order = work.order;
-  std::fprintf(to, "solvers\n");
   std::string equilibrium =
       "KINSOL with line search at every point, predicted by its series of " + order_text(order, chosen);
   if (structure.known_equilibrium) {
@@ -282,7 +275,7 @@ void print_solvers(std::FILE* to, const Model& model, const Structure& structure
       {"  modes", describe_route(structure, work) + "; series of " + order_text(order, chosen)},
       {"  dense output", "Hermite interpolation of degree " + std::to_string(2 * order + 1)}};
   if (route.work) rows.push_back({"  not projected", reason_of(route)});
-  print_table(rows, to);
+  print_section(to, "solvers", rows);
 }
 
 Sizes sizes_at(const Model& model, const PathPoint& point) {
@@ -304,7 +297,7 @@ Route explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_
   const int traced = setup.traced();
   const Structure structure = model->structure(traced);
 
-  if (!scene.title.empty()) std::fprintf(to, "%s\n", printable(scene.title).c_str());
+  print_title(scene.title, to);
   const Route route = route_of(*model, options);
   if (route.is_projected) {
     print_parameters(to, *model, traced);

@@ -1,7 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <memory>
 
 #include "commands.hpp"
 #include "explain.hpp"
@@ -13,14 +11,11 @@ namespace {
 
 struct ExplainArguments : SceneArguments {
   bool sensitivity = false;
-  std::map<std::string, std::string> options;
 };
 
 int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solver) {
-  const OptionTexts options{arguments.options.begin(), arguments.options.end()};
-  const TraceSetup setup = prepare_trace(given_scene(arguments), options);
-  warn_of_unused(setup.scene, *setup.model);
-  const Route route = explain(stdout, setup, options, arguments.sensitivity, solver);
+  const TraceSetup setup = given_setup(arguments);
+  const Route route = explain(stdout, setup, arguments.overrides(), arguments.sensitivity, solver);
   if (!route.is_projected)
     std::printf("next: eigentrail trace %s -o %s\n", setup.scene.path.c_str(),
                 std::filesystem::path(setup.scene.path).stem().replace_extension(".h5").c_str());
@@ -30,25 +25,17 @@ int run_explain(const ExplainArguments& arguments, const SparseSolverMaker& solv
 }  // namespace
 
 void add_explain(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<ExplainArguments>();
-  CLI::App* command =
-      program.add_subcommand("explain", "effects, structure, sizes and chosen solvers of a scene");
+  const auto [command, arguments] =
+      add_command<ExplainArguments>(program, exit_code, factoring(run_explain), "explain",
+                                    "effects, structure, sizes and chosen solvers of a scene");
   add_scene(*command, *arguments);
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "rank the effects by their influence on each mode where the trace begins");
-  for (const std::string name : {"parameter", "from", "to", "modes", "order", "without"}) {
-    command->add_option_function<std::string>(
-        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        "as for trace (overrides the scene)");
-  }
+  add_overrides(*command, *arguments, {"parameter", "from", "to", "modes", "order", "without"});
   command->footer(
       "Examples:\n"
       "  eigentrail explain data/scenes/rotating_mass.toml\n"
       "  eigentrail explain data/scenes/rotating_mass.toml --sensitivity --without drag");
-  command->callback([arguments, &exit_code] {
-    exit_code =
-        factoring_together([&](const SparseSolverMaker& solver) { return run_explain(*arguments, solver); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eigentrail/core/text.hpp"
 #include "output.hpp"
 
 namespace eigentrail::app {
@@ -16,11 +15,6 @@ struct Place {
   double t = 0.0;
   ComplexVector s;
 };
-
-template <class Integer>
-Cell count(Integer number) {
-  return static_cast<std::int64_t>(number);
-}
 
 bool exists(const PathStep& step, int mode) {
   return std::any_of(step.blocks.begin(), step.blocks.end(), [mode](const DenseBlock& block) {
@@ -72,20 +66,12 @@ double or_nan(double value) {
   return std::isfinite(value) ? value : NAN;
 }
 
-/// A value that is not known is an empty field.
-std::string field(const Cell& cell) {
-  if (const auto* number = std::get_if<double>(&cell)) return std::isnan(*number) ? "" : exact_text(*number);
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
-  return csv_cell(std::get<std::string>(cell));
-}
-
 }  // namespace
 
 ExportTable loci_table(const LociFile& loci, std::optional<int> points) {
   ExportTable table{"loci",
                     {"place", loci.parameter, "mode", "name", "real", "imag", "natural_frequency",
-                     "damped_frequency", "damping_ratio", "log_decrement", "certified"},
-                    {}};
+                     "damped_frequency", "damping_ratio", "log_decrement", "certified"}};
   if (loci.data_errors) table.columns.insert(table.columns.end(), {"interpolation_error", "digits_error"});
   const std::vector<Place> places = points ? equidistant_places(loci, *points) : stored_places(loci);
   for (std::size_t number = 0; number < places.size(); ++number) {
@@ -111,8 +97,7 @@ ExportTable loci_table(const LociFile& loci, std::optional<int> points) {
 ExportTable events_table(const LociFile& loci) {
   ExportTable table{"events",
                     {"kind", loci.parameter, "real", "imag", "modes", "direction", "value", "half_width",
-                     "puiseux_real", "puiseux_imag"},
-                    {}};
+                     "puiseux_real", "puiseux_imag"}};
   if (loci.data_errors) table.columns.insert(table.columns.end(), {"interval_from", "interval_to"});
   for (const std::string& name : loci.scene_parameters)
     table.columns.insert(table.columns.end(),
@@ -139,8 +124,7 @@ ExportTable events_table(const LociFile& loci) {
 ExportTable ranges_table(const LociFile& loci) {
   ExportTable table{"stable_ranges",
                     {"kind", "from", "to", "cause_from", "cause_to", "margin_from", "margin_to", "mode_from",
-                     "mode_to", "least_margin", "largest_margin", "largest_at", "whole_model"},
-                    {}};
+                     "mode_to", "least_margin", "largest_margin", "largest_at", "whole_model"}};
   if (!loci.ranges) return table;
   const auto mode = [](int number) { return number < 0 ? Cell(NAN) : count(number + 1); };
   for (const StableRange& range : *loci.ranges) {
@@ -153,8 +137,7 @@ ExportTable ranges_table(const LociFile& loci) {
 }
 
 ExportTable shapes_table(const LociFile& loci) {
-  ExportTable table{
-      "mode_shapes", {"place", loci.parameter, "mode", "name", "coordinate", "real", "imag"}, {}};
+  ExportTable table{"mode_shapes", {"place", loci.parameter, "mode", "name", "coordinate", "real", "imag"}};
   const std::size_t n = loci.coordinates.size();
   read_mode_shapes(loci, [&](std::size_t node, std::span<const Complex> shapes) {
     for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
@@ -167,17 +150,6 @@ ExportTable shapes_table(const LociFile& loci) {
     }
   });
   return table;
-}
-
-std::string csv_text(const ExportTable& table) {
-  std::string text;
-  for (const std::string& column : table.columns) text += (text.empty() ? "" : ",") + csv_cell(column);
-  text += "\n";
-  for (const std::vector<Cell>& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + field(row[i]);
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace eigentrail::app

@@ -1,23 +1,20 @@
 // The content of a loci file as tables, for CSV and JSON.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "eigentrail/store/loci_file.hpp"
+#include "records.hpp"
 
 namespace eigentrail::app {
 
-/// A number, a count or a text. Numbers that are not known are NaN.
-using Cell = std::variant<double, std::int64_t, std::string>;
+struct ExportTable : Records {
+  ExportTable(std::string of_file, std::vector<std::string> names)
+      : Records{std::move(names), {}, ""}, name(std::move(of_file)) {}
 
-struct ExportTable {
   std::string name;  ///< of the file, without ending
-  std::vector<std::string> columns;
-  std::vector<std::vector<Cell>> rows;
 };
 
 /// Every mode that exists at every place: number of the place along the output, parameter, mode, name, real
@@ -35,8 +32,5 @@ ExportTable ranges_table(const LociFile& loci);
 
 /// Mode shapes at the stored points: a row per coordinate.
 ExportTable shapes_table(const LociFile& loci);
-
-/// Comma-separated values with a heading; texts with commas or quotes are quoted (RFC 4180).
-std::string csv_text(const ExportTable& table);
 
 }  // namespace eigentrail::app

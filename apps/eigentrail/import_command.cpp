@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
+#include "scene_arguments.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -58,21 +58,18 @@ void add_import(CLI::App& program, int& exit_code) {
       "  eigentrail import matrix-market M0.mtx K0.mtx K2.mtx -o rotor --parameter speed --to 100\n"
       "  eigentrail import nastran 0.pch 100.pch 200.pch -o shaft --parameter speed --values 0,100,200");
   for (const Importer& format : importers()) {
-    auto arguments = std::make_shared<ImportArguments>();
-    CLI::App* one = command->add_subcommand(format.format, format.description);
+    const auto run = [&format](const ImportArguments& given) { return run_import(format, given); };
+    const auto [one, arguments] =
+        add_command<ImportArguments>(*command, exit_code, run, format.format, format.description);
     one->add_option("FILES", arguments->files, "files to read")->required();
     one->add_option("-o,--output", arguments->folder, "folder for the scene and its matrices")->required();
     one->add_option("--name", arguments->name, "name of the two files; default: that of the files");
     one->add_flag("--force", arguments->force, "replace existing files");
-    for (const auto& [name, help] : format.options) {
-      one->add_option_function<std::string>(
-          "--" + name, [arguments, name = name](const std::string& text) { arguments->options[name] = text; },
-          help);
-    }
+    for (const auto& [name, help] : format.options)
+      add_text(*one, "--" + name, arguments->options, name, help);
     std::string reads = "Reads:\n";
     for (const ImportedItem& item : format.reads) reads += "  " + item.item + ": " + item.becomes + "\n";
     one->footer(reads);
-    one->callback([arguments, &format, &exit_code] { exit_code = run_import(format, *arguments); });
   }
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -10,6 +9,7 @@
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
 #include "ranges.hpp"
+#include "records.hpp"
 #include "samples_info.hpp"
 
 namespace eigentrail::app {
@@ -161,7 +161,7 @@ void print_json(const LociFile& loci) {
   info["events"] = loci.events.size();
   if (loci.ranges) info["stable_ranges"] = ranges_json(*loci.ranges);
   info["attributes"] = loci.attributes;
-  std::printf("%s\n", info.dump(2).c_str());
+  print_text_of(info);
 }
 
 int run_info(const InfoArguments& arguments) {
@@ -186,15 +186,14 @@ int run_info(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command =
-      program.add_subcommand("info", "what a loci file or a file of samples holds, and how it was made");
+  const auto [command, arguments] =
+      add_command<InfoArguments>(program, exit_code, run_info, "info",
+                                 "what a loci file or a file of samples holds, and how it was made");
   command->add_option("FILE", arguments->file, "loci file, or samples of matrices (HDF5)")->required();
   auto* json = command->add_flag("--json", arguments->json, "print one JSON object");
   command->add_flag("--scene", arguments->scene, "print the scene that the file was made from")
       ->excludes(json);
   command->footer("Example:\n  eigentrail info blade.h5");
-  command->callback([arguments, &exit_code] { exit_code = run_info(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "eigentrail/core/errors.hpp"
+
 namespace eigentrail::app {
 
 bool launched() {
@@ -19,6 +21,13 @@ int launched_processes() {
     if (text != nullptr) number = std::max(number, std::atoi(text));
   }
   return number;
+}
+
+void require_one_process(const std::string& what) {
+  const int processes = launched_processes();
+  if (processes > 1)
+    throw InputError(std::to_string(processes) +
+                     " processes were started together, but this eigentrail was built without " + what);
 }
 
 }  // namespace eigentrail::app

@@ -115,25 +115,10 @@ int run(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
   int exit_code = done;
-  add_new(program, exit_code);
-  add_import(program, exit_code);
-  add_suggest(program, exit_code);
-  add_explain(program, exit_code);
-  add_trace(program, exit_code);
-  add_spectrum(program, exit_code);
-  add_eval(program, exit_code);
-  add_events(program, exit_code);
-  add_boundary(program, exit_code);
-  add_map(program, exit_code);
-  add_sweep(program, exit_code);
-  add_merge(program, exit_code);
-  add_info(program, exit_code);
-  add_verify(program, exit_code);
-  add_accuracy(program, exit_code);
-  add_report(program, exit_code);
-  add_plot(program, exit_code);
-  add_export(program, exit_code);
-  add_reference(program, exit_code);
+  for (const auto& add : {add_new, add_import, add_suggest, add_explain, add_trace, add_spectrum, add_eval,
+                          add_events, add_boundary, add_map, add_sweep, add_merge, add_info, add_verify,
+                          add_accuracy, add_report, add_plot, add_export, add_reference})
+    add(program, exit_code);
   reject_empty_numbers(program);
   reject_unknown_command(program, argc, argv);
   try {

@@ -1,23 +1,17 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <optional>
 
-#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/map_writer.hpp"
-#include "eigentrail/store/output_file.hpp"
 #include "map_picture.hpp"
 #include "output.hpp"
-#include "parts.hpp"
-#include "progress_bar.hpp"
 #include "scene_arguments.hpp"
+#include "shared_job.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
@@ -25,11 +19,9 @@ namespace {
 
 struct MapArguments : SceneArguments {
   OutputChoice output;
-  std::optional<Part> part;
   std::string from, to;  ///< of the second parameter
   std::string grid = "50";
-  MapOptions options;
-  std::map<std::string, std::string> trace_options;  ///< overrides of the scene's [trace]
+  MapOptions window;
 };
 
 /// Reads "N", or "NxM" for N values of the second parameter and M of the first.
@@ -97,7 +89,7 @@ void print_summary(const MapSetup& setup, const StabilityMap& map, double second
     const std::string& unit = trace.scene.parameters.at(name).unit;
     return name + " " + exact_text(from) + " -> " + exact_text(to) + (unit.empty() ? "" : " " + unit);
   };
-  if (!trace.scene.title.empty()) std::printf("%s\n", printable(trace.scene.title).c_str());
+  print_title(trace.scene.title);
   std::printf("  %d x %d cells: %s, %s, tolerance %s\n", options.n_second, options.n_first,
               window(options.second, options.from, options.to).c_str(),
               window(trace.options.parameter, trace.options.from, trace.options.to).c_str(),
@@ -129,11 +121,7 @@ int finish_map(const MapSetup& setup, const SharedRun& run, const std::vector<st
                  printable(failure(map)).c_str());
     return numbers_failed;
   }
-  write_durably(output.path, {map_file(setup, map), run_mark(run)}, existing(output.force));
-  if (!output.quiet) {
-    print_summary(setup, map, seconds);
-    std::printf("wrote %s\n", output.path.c_str());
-  }
+  write_result(output, run, map_file(setup, map), [&] { print_summary(setup, map, seconds); });
   return done;
 }
 
@@ -146,53 +134,44 @@ SharedRun shared_run(const MapSetup& setup, const MapArguments& arguments) {
                                            {"--to", exact_text(options.to)},
                                            {"lines", std::to_string(options.n_second)},
                                            {"cells", std::to_string(options.n_first)}});
-  for (const auto& [key, text] : arguments.trace_options) run.settings.emplace_back("option " + key, text);
+  for (const auto& [key, text] : arguments.options) run.settings.emplace_back("option " + key, text);
   return run;
 }
 
-void check_map_output(const OutputChoice& output) {
-  check_output(output.path, output.force, {map_format, "stability map"});
-  check_can_create(output.path);
+SharedJob map_job(std::shared_ptr<const MapSetup> setup, SharedRun run, const OutputChoice& output,
+                  const Team& team) {
+  SharedJob job{std::move(run), hdf5_format(map_format, "stability map"), setup->options.jobs};
+  job.compute = [setup](const std::vector<std::size_t>& numbers, Workers& workers, ProgressBar& progress) {
+    return map_lines(*setup, numbers, workers, [&](std::size_t finished) {
+      progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
+                      static_cast<int>(finished), "lines");
+    });
+  };
+  job.finish = [setup, run = job.run, &output, &team](const std::vector<std::string>& lines, Workers&,
+                                                      std::optional<double> seconds) {
+    return team.leads() ? finish_map(*setup, run, lines, output, seconds.value_or(NAN)) : done;
+  };
+  return job;
 }
 
 int run_map(MapArguments& arguments, Team& team) {
-  read_grid(arguments.grid, arguments.options);
+  arguments.output.name_like(arguments.scene, "_map", ".h5");
+  read_grid(arguments.grid, arguments.window);
   Scene scene = given_scene(arguments);
-  const auto index = scene.parameters.index(arguments.options.second);
-  const Parameter second = index ? scene.parameters[static_cast<std::size_t>(*index)] : Parameter{};
-  arguments.options.from = read_value("--from", arguments.from, second);
-  arguments.options.to = read_value("--to", arguments.to, second);
-  const MapSetup setup = prepare_map(
-      std::move(scene), {arguments.trace_options.begin(), arguments.trace_options.end()}, arguments.options);
-  warn_of_unused(setup.trace.scene, *setup.trace.model);
-  check_map_names(setup);
-  const SharedRun run = shared_run(setup, arguments);
-  if (has_ended(arguments.output, team, run, arguments.part)) return done;
-  const auto unfinished = unfinished_run(arguments.output, run, arguments.part, team);
-  if (team.leads()) arguments.part ? check_part_output(arguments.output) : check_map_output(arguments.output);
-  SavingWorkers workers(team.workers(setup.options.jobs), *unfinished);
-  const std::vector<std::size_t> numbers =
-      arguments.part.value_or(Part{}).pieces(static_cast<std::size_t>(setup.options.n_second));
-  ProgressBar progress(arguments.output.quiet);
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<std::string> lines = map_lines(setup, numbers, workers, [&](std::size_t finished) {
-    progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
-                    static_cast<int>(finished), "lines");
-  });
-  progress.finish();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!team.leads()) return done;
-  return end_run(*unfinished, [&] {
-    if (arguments.part) return write_part(arguments.output, run, *arguments.part, std::move(lines));
-    return finish_map(setup, run, lines, arguments.output, seconds);
-  });
+  const Parameter second = parameter_called(scene, arguments.window.second);
+  arguments.window.from = read_value("--from", arguments.from, second);
+  arguments.window.to = read_value("--to", arguments.to, second);
+  const auto setup = std::make_shared<const MapSetup>(
+      prepare_map(std::move(scene), arguments.overrides(), arguments.window));
+  warn_of_unused(setup->trace.scene, *setup->trace.model);
+  check_map_names(*setup);
+  return carry_out(map_job(setup, shared_run(*setup, arguments), arguments.output, team), arguments.output,
+                   team);
 }
 
 }  // namespace
 
-int merge_map(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
-              Team& team) {
-  if (!team.leads()) return done;
+SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
   MapOptions options;
   options.second = run.setting("--second").value_or("");
   options.from = number_of(run, "--from");
@@ -204,17 +183,16 @@ int merge_map(const SharedRun& run, const std::vector<std::string>& pieces, cons
   for (const auto& [label, text] : run.settings) {
     if (label.starts_with(prefix)) overrides.emplace_back(label.substr(prefix.size()), text);
   }
-  const MapSetup setup =
-      read_map_setup(parse_scene(run.setting("scene").value_or(""), run.scene_path), overrides, options);
-  check_map_output(output);
-  return finish_map(setup, run, pieces, output, std::nan(""));
+  return map_job(std::make_shared<const MapSetup>(read_map_setup(
+                     parse_scene(run.setting("scene").value_or(""), run.scene_path), overrides, options)),
+                 run, output, team);
 }
 
 void add_map(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command =
-      program.add_subcommand("map", "stability over a window of two parameters: growing modes and margin");
-  MapOptions& options = arguments->options;
+  const auto [command, arguments] =
+      add_command<MapArguments>(program, exit_code, in_team(run_map, together), "map",
+                                "stability over a window of two parameters: growing modes and margin");
+  MapOptions& options = arguments->window;
   add_scene(*command, *arguments);
   command->add_option("--second", options.second, "name of the second parameter")->required();
   command->add_option("--from", arguments->from, "first value of the second parameter, in its unit")
@@ -222,35 +200,21 @@ void add_map(CLI::App& program, int& exit_code) {
   command->add_option("--to", arguments->to, "last value of the second parameter")->required();
   command->add_option("--grid", arguments->grid,
                       "N values of both, or NxM: N of the second by M of the first (50)");
-  auto* output = command->add_option("-o,--output", arguments->output.path,
-                                     "map file to write (HDF5); default: SCENE_map.h5, here");
-  add_part(*command, arguments->part);
-  for (const auto& [flag, key, help] :
-       {std::array{"--parameter", "parameter", "name of the first parameter: the one that is traced"},
-        std::array{"--first-from", "from", "where the window of the first parameter begins"},
-        std::array{"--first-to", "to", "where it ends"},
-        std::array{"--tolerance", "tolerance", "bound of the relative error of every eigenvalue"}}) {
-    command->add_option_function<std::string>(
-        flag,
-        [arguments, key = std::string(key)](const std::string& text) {
-          arguments->trace_options[key] = text;
-        },
-        std::string(help) + " (overrides the scene)");
-  }
-  command->add_flag_callback(
-      "--no-certify", [arguments] { arguments->trace_options["certify"] = "false"; },
-      "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
+  add_output(*command, arguments->output, "map file to write (HDF5); default: SCENE_map.h5, here");
+  add_part(*command, arguments->output);
+  add_override(*command, *arguments, "parameter", "name of the first parameter: the one that is traced");
+  add_override(*command, *arguments, "from", "where the window of the first parameter begins",
+               "--first-from");
+  add_override(*command, *arguments, "to", "where it ends", "--first-to");
+  add_override(*command, *arguments, "tolerance", "bound of the relative error of every eigenvalue");
+  add_no_certify(*command, *arguments,
+                 "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
   command->add_option("--jobs", options.jobs, "threads; 0: one per core");
   add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
       "40x80 -o "
       "drag.h5");
-  command->callback([arguments, output, &exit_code] {
-    if (output->count() == 0)
-      arguments->output.path = default_output(arguments->scene, "_map", arguments->part);
-    exit_code = together([&](Team& team) { return run_map(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "parts.hpp"
 #include "scene_arguments.hpp"
+#include "shared_job.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -26,29 +25,27 @@ int run_merge(const MergeArguments& arguments, Team& team) {
   if (other != parts.end() && team.leads())
     warn(other->path + ": was computed with the kernel " + other->blas_kernel + " of BLAS, " + first.path +
          " with " + first.blas_kernel + "; the last digits differ from those of a run on one machine");
-  if (run.command == "map") return merge_map(run, pieces, arguments.output, team);
-  if (run.command == "boundary") return merge_boundary(run, pieces, arguments.output, team);
-  if (run.command == "sweep") return merge_sweep(run, pieces, arguments.output, team);
+  for (const auto& [command, job_of_parts] :
+       {std::pair{"map", &map_of_parts}, {"boundary", &boundary_of_parts}, {"sweep", &sweep_of_parts}}) {
+    if (run.command == command)
+      return finish_joined(job_of_parts(run, arguments.output, team), pieces, arguments.output, team);
+  }
   throw InputError(first.path + ": is a part of '" + run.command + "', which this version cannot join");
 }
 
 }  // namespace
 
 void add_merge(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command = program.add_subcommand(
-      "merge", "join the parts of a map, boundary or sweep that were computed with --part");
+  const auto [command, arguments] = add_command<MergeArguments>(
+      program, exit_code, in_team(run_merge, together), "merge",
+      "join the parts of a map, boundary or sweep that were computed with --part");
   command->add_option("FILES", arguments->files, "the files of all parts, in any order")->required();
-  command->add_option("-o,--output", arguments->output.path, "file to write")->required();
-  command->add_flag("--force", arguments->output.force, "replace an existing output");
-  command->add_flag("-q,--quiet", arguments->output.quiet, "no progress bar, no summary");
+  add_output(*command, arguments->output, "file to write")->required();
+  add_output_flags(*command, arguments->output, {.resume = ""});
   command->footer(
       "Example:\n"
       "  eigentrail merge part_1.h5 part_2.h5 -o drag.h5\n\n"
       "The parts come from the same command with --part 1/2 -o part_1.h5 and --part 2/2 -o part_2.h5.");
-  command->callback([arguments, &exit_code] {
-    exit_code = together([&](Team& team) { return run_merge(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
-#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/store/output_file.hpp"
+#include "output_choice.hpp"
 #include "starters.hpp"
 
 namespace eigentrail::app {
@@ -38,8 +36,7 @@ int run_new(const NewArguments& arguments) {
   std::error_code error;
   if (std::filesystem::exists(path, error))
     throw InputError(path + ": exists already, and a scene is never replaced; give another name");
-  check_output(path, false, OtherOutput{[](const std::string&) { return false; }, "scene"});
-  check_can_create(path);
+  check_new_output(path, false, {"scene", [](const std::string&) { return false; }});
   write_durably(path, {text_for(starters[static_cast<std::size_t>(chosen - names.begin())], path)});
   std::printf("wrote %s; next: eigentrail explain %s\n", path.c_str(), path.c_str());
   return done;
@@ -48,8 +45,8 @@ int run_new(const NewArguments& arguments) {
 }  // namespace
 
 void add_new(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<NewArguments>();
-  CLI::App* command = program.add_subcommand("new", "write a commented scene to start from");
+  const auto [command, arguments] =
+      add_command<NewArguments>(program, exit_code, run_new, "new", "write a commented scene to start from");
   command->add_option("SCENE", arguments->output, "scene file to write (TOML)")->required();
   command
       ->add_option("--starter", arguments->starter,
@@ -58,7 +55,6 @@ void add_new(CLI::App& program, int& exit_code) {
                    "bearings; matrices: M, C, K")
       ->capture_default_str();
   command->footer("Examples:\n  eigentrail new blade.toml\n  eigentrail new flutter.toml --starter matrices");
-  command->callback([arguments, &exit_code] { exit_code = run_new(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -124,4 +124,14 @@ void print_table(const std::vector<std::vector<std::string>>& rows, std::FILE* t
   }
 }
 
+void print_section(std::FILE* to, const char* heading, const std::vector<std::vector<std::string>>& rows) {
+  if (rows.empty()) return;
+  std::fprintf(to, "%s\n", heading);
+  print_table(rows, to);
+}
+
+void print_title(const std::string& title, std::FILE* to) {
+  if (!title.empty()) std::fprintf(to, "%s\n", printable(title).c_str());
+}
+
 }  // namespace eigentrail::app

@@ -57,4 +57,10 @@ std::string cell_text(const std::string& text);
 /// Prints rows with aligned columns, two spaces apart, indented by two.
 void print_table(const std::vector<std::vector<std::string>>& rows, std::FILE* to = stdout);
 
+/// Prints a heading and the rows below it; nothing without rows.
+void print_section(std::FILE* to, const char* heading, const std::vector<std::vector<std::string>>& rows);
+
+/// Prints the title of a scene, if it has one.
+void print_title(const std::string& title, std::FILE* to = stdout);
+
 }  // namespace eigentrail::app

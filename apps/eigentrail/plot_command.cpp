@@ -5,21 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <optional>
 
-#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/store/output_file.hpp"
-#include "scene_arguments.hpp"
+#include "output_choice.hpp"
 
 extern char** environ;  // NOLINT: of POSIX
 
@@ -28,11 +24,9 @@ namespace {
 
 struct PlotArguments {
   std::vector<std::string> files;
-  std::string output;
+  OutputChoice output;
   std::string kind, harmonics, unit, mode, at, view, size;
   bool log = false;
-  bool force = false;
-  bool quiet = false;
 };
 
 /// A kind of picture by the ending of its name: how its files begin.
@@ -42,16 +36,10 @@ struct PictureKind {
 constexpr std::array<PictureKind, 3> picture_kinds{
     {{".svg", "<?xml"}, {".pdf", "%PDF"}, {".png", "\x89PNG"}}};
 
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 const PictureKind* kind_of(const std::string& path) {
   const auto* const found =
       std::find_if(picture_kinds.begin(), picture_kinds.end(),
-                   [ending = ending_of(path)](const PictureKind& kind) { return kind.ending == ending; });
+                   [ending = extension_of(path)](const PictureKind& kind) { return kind.ending == ending; });
   return found == picture_kinds.end() ? nullptr : found;
 }
 
@@ -60,7 +48,7 @@ void check_picture_name(const std::string& output) {
   std::string known;
   for (const PictureKind& kind : picture_kinds)
     known += (known.empty() ? "" : ", ") + std::string(kind.ending);
-  const std::string page = ending_of(output).starts_with(".htm") ? "; eigentrail report writes pages" : "";
+  const std::string page = extension_of(output).starts_with(".htm") ? "; eigentrail report writes pages" : "";
   throw InputError(output + ": expected a name that ends in one of " + known + page);
 }
 
@@ -161,27 +149,28 @@ std::vector<std::string> interpreters() {
 std::vector<std::string> words(const PlotArguments& arguments) {
   std::vector<std::string> list = arguments.files;
   for (const auto& [option, value] :
-       {std::pair{"--output", &arguments.output}, std::pair{"--kind", &arguments.kind},
+       {std::pair{"--output", &arguments.output.path}, std::pair{"--kind", &arguments.kind},
         std::pair{"--harmonics", &arguments.harmonics}, std::pair{"--unit", &arguments.unit},
         std::pair{"--mode", &arguments.mode}, std::pair{"--at", &arguments.at},
         std::pair{"--view", &arguments.view}, std::pair{"--size", &arguments.size}}) {
     if (!value->empty()) list.push_back(std::string(option) + "=" + *value);
   }
   if (arguments.log) list.emplace_back("--log");
-  if (arguments.force) list.emplace_back("--force");
+  if (arguments.output.force) list.emplace_back("--force");
   return list;
 }
 
-int run_plot(const PlotArguments& arguments) {
-  check_picture_name(arguments.output);
-  check_output(arguments.output, arguments.force, OtherOutput{is_picture, "picture of eigentrail"});
-  check_can_create(arguments.output);
+int run_plot(PlotArguments& arguments) {
+  OutputChoice& output = arguments.output;
+  output.name_like(arguments.files.front(), ".svg");
+  check_picture_name(output.path);
+  check_new_output(output.path, output.force, {"picture of eigentrail", is_picture});
   const std::vector<std::string> candidates = interpreters();
   for (const std::string& interpreter : candidates) {
     const std::optional<int> code =
         run_python(interpreter, interpreter == candidates.back(), words(arguments));
     if (!code || *code == package_missing || *code == 127) continue;
-    if (*code == done && !arguments.quiet) std::printf("wrote %s\n", arguments.output.c_str());
+    if (*code == done && !output.quiet) std::printf("wrote %s\n", output.path.c_str());
     return *code;
   }
   throw InputError(
@@ -194,14 +183,13 @@ int run_plot(const PlotArguments& arguments) {
 }  // namespace
 
 void add_plot(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command =
-      program.add_subcommand("plot", "a picture: Campbell diagram, root locus, map, ... as SVG, PDF, PNG");
+  const auto [command, arguments] =
+      add_command<PlotArguments>(program, exit_code, run_plot, "plot",
+                                 "a picture: Campbell diagram, root locus, map, ... as SVG, PDF, PNG");
   command->add_option("FILE", arguments->files, "a loci file, a map and its boundary, or an accuracy study")
       ->required();
-  auto* output =
-      command->add_option("-o,--output", arguments->output,
-                          "picture to write, .svg, .pdf or .png; default: the name of the first file, .svg");
+  add_output(*command, arguments->output,
+             "picture to write, .svg, .pdf or .png; default: the name of the first file, .svg");
   command->add_option("--kind", arguments->kind, "what to draw; default by the kind of the file")
       ->check(CLI::IsMember({"campbell", "root-locus", "damping", "shape", "plane", "accuracy"}));
   command->add_option("--harmonics", arguments->harmonics,
@@ -213,17 +201,12 @@ void add_plot(CLI::App& program, int& exit_code) {
                       "value of the parameter of a shape; default: the begin of the trace");
   command->add_option("--view", arguments->view, "view of a shape: 3D, xy, xz, yz");
   command->add_option("--size", arguments->size, "width and height in inches: 9x6");
-  command->add_flag("--force", arguments->force, "replace an existing picture");
-  command->add_flag("-q,--quiet", arguments->quiet, "say nothing");
+  add_output_flags(*command, arguments->output, {"replace an existing picture", "", "say nothing"});
   command->footer(
       "Examples:\n  eigentrail plot rotor.h5 -o campbell.svg --harmonics 1,2 --unit Hz\n"
       "  eigentrail plot blade.h5 --kind shape --at 40 --mode 2 -o flap.png\n"
       "  eigentrail plot drag.h5 flutter.h5 -o plane.pdf\n"
       "Python draws: EIGENTRAIL_PYTHON names another interpreter than python3.");
-  command->callback([arguments, output, &exit_code] {
-    if (output->count() == 0) arguments->output = beside(arguments->files.front(), ".svg");
-    exit_code = run_plot(*arguments);
-  });
 }
 
 }  // namespace eigentrail::app

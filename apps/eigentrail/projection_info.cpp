@@ -66,8 +66,7 @@ void print_route(const Route& route, const ProjectionEstimate& estimate, const T
   rows.push_back({"  error", "of the projection below " + rounded(estimate.target, 3) +
                                  " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
                                  " is that of the large model"});
-  std::fprintf(to, "route\n");
-  print_table(rows, to);
+  print_section(to, "route", rows);
 }
 
 }  // namespace eigentrail::app

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <map>
-#include <memory>
 #include <set>
 
 #include "commands.hpp"
@@ -172,13 +171,12 @@ int run_reference(const ReferenceArguments& arguments) {
 }  // namespace
 
 void add_reference(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<ReferenceArguments>();
-  CLI::App* command =
-      program.add_subcommand("reference", "every table that a scene may have, with its keys and units");
+  const auto [command, arguments] =
+      add_command<ReferenceArguments>(program, exit_code, run_reference, "reference",
+                                      "every table that a scene may have, with its keys and units");
   command->add_option("TABLE", arguments->tables, "tables to show, such as spring; default: all");
   command->add_flag("--markdown", arguments->markdown, "as the documentation has it");
   command->footer("Examples:\n  eigentrail reference\n  eigentrail reference spring damper");
-  command->callback([arguments, &exit_code] { exit_code = run_reference(*arguments); });
 }
 
 }  // namespace eigentrail::app

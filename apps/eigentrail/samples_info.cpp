@@ -6,20 +6,11 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/model/sampled_data.hpp"
 #include "output.hpp"
+#include "records.hpp"
 
 namespace eigentrail::app {
 namespace {
-
-SampledData samples_in(const std::string& path) {
-  try {
-    return read_samples(path);
-  } catch (const std::exception& error) {
-    const std::string message = error.what();
-    throw InputError(message.find(path) != std::string::npos ? message : path + ": " + message);
-  }
-}
 
 /// "A" or "M, C, K".
 std::string matrices_in(const SampledData& data) {
@@ -64,10 +55,19 @@ void print_json(const std::string& path, const SampledData& data) {
   info["state_units"] = data.state_units;
   info["digits"] = data.digits ? nlohmann::ordered_json(*data.digits) : nlohmann::ordered_json();
   info["source"] = data.source;
-  std::printf("%s\n", info.dump(2).c_str());
+  print_text_of(info);
 }
 
 }  // namespace
+
+SampledData samples_in(const std::string& path) {
+  try {
+    return read_samples(path);
+  } catch (const std::exception& error) {
+    const std::string message = error.what();
+    throw InputError(message.find(path) != std::string::npos ? message : path + ": " + message);
+  }
+}
 
 void print_samples(const std::string& path, bool json) {
   const SampledData data = samples_in(path);

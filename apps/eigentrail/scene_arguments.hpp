@@ -1,37 +1,57 @@
-// What the commands that take a scene have in common: the file, --set, and warnings.
+// What the commands that take a scene have in common: the file, --set, options of traces, and warnings.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "eigentrail/model/model.hpp"
-#include "eigentrail/scene/scene.hpp"
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/store/loci_writer.hpp"
 
 namespace eigentrail::app {
 
 struct SceneArguments {
   std::string scene;
-  std::vector<std::string> settings;  ///< NAME=VALUE
+  std::vector<std::string> settings;           ///< NAME=VALUE
+  std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
+
+  OptionTexts overrides() const { return {options.begin(), options.end()}; }
 };
+
+/// Adds an option whose text goes to `texts`, if it is given.
+void add_text(CLI::App& command, const std::string& flag, std::map<std::string, std::string>& texts,
+              const std::string& key, const std::string& help);
 
 /// Adds SCENE and --set to a command.
 void add_scene(CLI::App& command, SceneArguments& arguments);
 /// Adds --set alone.
 void add_settings(CLI::App& command, SceneArguments& arguments);
 
+/// Adds an option of traces: "max_step" is --max-step, if it has no other `flag`.
+void add_override(CLI::App& command, SceneArguments& arguments, const std::string& key,
+                  const std::string& help, std::string flag = "");
+/// Adds options that are as for trace.
+void add_overrides(CLI::App& command, SceneArguments& arguments, const std::vector<std::string>& keys);
+void add_no_certify(CLI::App& command, SceneArguments& arguments, const std::string& help);
+/// Adds all options of traces.
+void add_trace_options(CLI::App& command, SceneArguments& arguments);
+
+/// Adds --no-lock.
+void add_no_lock(CLI::App& command, SaveOptions& saving);
+
 /// Reads the scene and sets its parameters. Prints warnings about settings without effect.
 Scene given_scene(const SceneArguments& arguments);
-Scene with_settings_of(const SceneArguments& arguments, Scene scene);
+
+/// Prepares a scene, or the given one, with its parameters set and its options overridden. Prints warnings
+/// about what has no effect.
+TraceSetup given_setup(const SceneArguments& arguments, Purpose purpose = Purpose::trace);
+TraceSetup given_setup(const SceneArguments& arguments, Scene scene, Purpose purpose);
 
 /// Prints a warning on stderr.
 void warn(const std::string& message);
 
 /// Prints a warning, on stderr, for each parameter on which nothing in the scene depends.
 void warn_of_unused(const Scene& scene, const Model& model);
-
-/// The name of an output file that was not given: that of the scene, with another ending, in the folder in
-/// which the program runs.
-std::string beside(const std::string& scene, const std::string& ending);
 
 }  // namespace eigentrail::app

@@ -1,11 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
-#include <utility>
 
 #include "commands.hpp"
 #include "eigentrail/accuracy/data_errors.hpp"
@@ -14,6 +10,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "factor_team.hpp"
 #include "output.hpp"
+#include "printed_format.hpp"
 #include "scene_arguments.hpp"
 #include "values.hpp"
 
@@ -22,9 +19,7 @@ namespace {
 
 struct SpectrumArguments : SceneArguments {
   std::vector<std::string> at;
-  std::map<std::string, std::string> options;
-  bool csv = false;
-  bool json = false;
+  PrintedFormat format;
 };
 
 double in_hertz(double angular) {
@@ -49,52 +44,26 @@ std::vector<ShownPoint> with_errors(const TraceSetup& setup, std::vector<Operati
   return result;
 }
 
-nlohmann::ordered_json json_row(const ShownPoint& point, std::size_t i) {
-  const OperatingMode& mode = point.modes[i];
-  nlohmann::ordered_json row{{"parameter", point.p},
-                             {"mode", i + 1},
-                             {"real", mode.s.real()},
-                             {"imag", mode.s.imag()},
-                             {"natural_frequency_hz", in_hertz(natural_frequency(mode))},
-                             {"damped_frequency_hz", in_hertz(mode.s.imag())},
-                             {"damping_ratio", damping_ratio(mode)},
-                             {"log_decrement", log_decrement(mode.s)},
-                             {"condition", mode.condition},
-                             {"rounding", mode.rounding},
-                             {"what_moves", printable(mode.what_moves)}};
-  if (point.errors) {
-    row["interpolation_error"] = (*point.errors)(static_cast<Eigen::Index>(i), 0);
-    row["digits_error"] = (*point.errors)(static_cast<Eigen::Index>(i), 1);
-  }
-  return row;
-}
-
-/// One row per mode, with the columns of the JSON rows.
-void print_csv(const std::vector<ShownPoint>& points) {
-  bool first = true;
+/// What CSV and JSON hold: a row per mode.
+Records records_of(const std::vector<ShownPoint>& points) {
+  Records records{{"parameter", "mode", "real", "imag", "natural_frequency_hz", "damped_frequency_hz",
+                   "damping_ratio", "log_decrement", "condition", "rounding", "what_moves"}};
+  const bool errors =
+      std::any_of(points.begin(), points.end(), [](const ShownPoint& point) { return bool(point.errors); });
+  if (errors) records.columns.insert(records.columns.end(), {"interpolation_error", "digits_error"});
   for (const ShownPoint& point : points) {
     for (std::size_t i = 0; i < point.modes.size(); ++i) {
-      std::string names, values;
-      const nlohmann::ordered_json row = json_row(point, i);
-      for (const auto& [name, value] : row.items()) {
-        names += (names.empty() ? "" : ",") + name;
-        values += values.empty() ? "" : ",";
-        values += value.is_string()         ? csv_cell(value.get<std::string>())
-                  : value.is_number_float() ? exact_text(value.get<double>())
-                                            : value.dump();
-      }
-      if (std::exchange(first, false)) std::printf("%s\n", names.c_str());
-      std::printf("%s\n", values.c_str());
+      const OperatingMode& mode = point.modes[i];
+      records.rows.push_back({point.p, count(i + 1), mode.s.real(), mode.s.imag(),
+                              in_hertz(natural_frequency(mode)), in_hertz(mode.s.imag()), damping_ratio(mode),
+                              log_decrement(mode.s), mode.condition, mode.rounding,
+                              printable(mode.what_moves)});
+      if (!point.errors) continue;
+      for (const double error : point.errors->row(static_cast<Eigen::Index>(i)))
+        records.rows.back().emplace_back(error);
     }
   }
-}
-
-void print_json(const std::vector<ShownPoint>& points) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const ShownPoint& point : points) {
-    for (std::size_t i = 0; i < point.modes.size(); ++i) rows.push_back(json_row(point, i));
-  }
-  std::printf("%s\n", rows.dump(2).c_str());
+  return records;
 }
 
 /// Prints "  LABEL: 1, 4", or nothing if there are none.
@@ -143,7 +112,7 @@ void print_point(const ShownPoint& point) {
 
 void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& points) {
   const std::string& unit = setup.model->description().parameters.at(setup.options.parameter).unit;
-  if (!setup.scene.title.empty()) std::printf("%s\n", printable(setup.scene.title).c_str());
+  print_title(setup.scene.title);
   for (const ShownPoint& point : points) {
     std::printf("%s = %s%s\n", setup.options.parameter.c_str(), exact_text(point.p).c_str(),
                 (unit.empty() ? unit : " " + unit).c_str());
@@ -152,25 +121,22 @@ void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& po
 }
 
 int run_spectrum(const SpectrumArguments& arguments, const SparseSolverMaker& solver) {
-  TraceSetup setup = prepare_trace(
-      given_scene(arguments), {arguments.options.begin(), arguments.options.end()}, Purpose::operating_point);
-  warn_of_unused(setup.scene, *setup.model);
+  TraceSetup setup = given_setup(arguments, Purpose::operating_point);
   const std::vector<double> values =
       arguments.at.empty()
           ? std::vector{setup.options.from}
           : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
   project_at_if_large(setup.model, setup.options, values, {.solver = solver});
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
-  if (arguments.csv) {
-    print_csv(points);
-  } else if (arguments.json) {
-    print_json(points);
-  } else {
+  const Records records = records_of(points);
+  if (!arguments.format) {
     print_for_people(setup, points);
+  } else if (arguments.format.json || !records.rows.empty()) {
+    print(records, arguments.format);
   }
   int code = done;
   for (const ShownPoint& point : points) {
-    if (!point.note.empty() && (arguments.csv || arguments.json))
+    if (!point.note.empty() && arguments.format)
       std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
                    exact_text(point.p).c_str(), point.note.c_str());
     if (point.fault.empty()) continue;
@@ -184,29 +150,20 @@ int run_spectrum(const SpectrumArguments& arguments, const SparseSolverMaker& so
 }  // namespace
 
 void add_spectrum(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<SpectrumArguments>();
-  CLI::App* command =
-      program.add_subcommand("spectrum", "eigenvalues at single values of the parameter, without a trace");
+  const auto [command, arguments] =
+      add_command<SpectrumArguments>(program, exit_code, factoring(run_spectrum), "spectrum",
+                                     "eigenvalues at single values of the parameter, without a trace");
   add_scene(*command, *arguments);
   command->add_option(
       "--at", arguments->at,
       "parameter values, in the parameter's unit: 40, 10,20, 0:5:40 (begin:step:end), \"100 rpm\"; "
       "default: where the trace begins");
-  for (const std::string name : {"parameter", "modes", "without"}) {
-    command->add_option_function<std::string>(
-        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        "as for trace (overrides the scene)");
-  }
-  auto* csv = command->add_flag("--csv", arguments->csv, "print a line per mode");
-  command->add_flag("--json", arguments->json, "print a list of objects")->excludes(csv);
+  add_overrides(*command, *arguments, {"parameter", "modes", "without"});
+  add_formats(*command, arguments->format, "print a line per mode");
   command->footer(
       "Examples:\n"
       "  eigentrail spectrum data/scenes/rotating_mass.toml --at 40\n"
       "  eigentrail spectrum turbine.toml --at 8 12 --modes \"band = ['0.1 Hz', '3 Hz']\" --csv");
-  command->callback([arguments, &exit_code] {
-    exit_code =
-        factoring_together([&](const SparseSolverMaker& solver) { return run_spectrum(*arguments, solver); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -2,16 +2,14 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "eigentrail/accuracy/suggest.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "output.hpp"
+#include "records.hpp"
+#include "samples_info.hpp"
 #include "scene_arguments.hpp"
 
 namespace eigentrail::app {
@@ -20,19 +18,12 @@ namespace {
 struct SuggestArguments : SceneArguments {
   int count = 3;
   bool json = false;
-  std::map<std::string, std::string> options;
 };
 
 /// A scene, or the samples themselves: then a scene that names them and follows all modes on their range.
 Scene scene_of(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".h5") return read_scene(path);
-  const SampledData data = [&] {
-    try {
-      return read_samples(path);
-    } catch (const std::exception& error) {
-      throw InputError(path + ": " + error.what());
-    }
-  }();
+  const SampledData data = samples_in(path);
   const std::string file = std::filesystem::path(path).filename().string();
   const std::string& name = data.parameter_name;
   const bool known_name =
@@ -48,19 +39,15 @@ Scene scene_of(const std::string& path) {
   return parse_scene(text, path);
 }
 
-void print_json(const std::vector<Suggestion>& suggestions) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+Records records_of(const std::vector<Suggestion>& suggestions) {
+  Records records{{"parameter", "error", "real", "imag"}};
   for (const Suggestion& one : suggestions)
-    rows.push_back(
-        {{"parameter", one.p}, {"error", one.error}, {"real", one.s.real()}, {"imag", one.s.imag()}});
-  std::printf("%s\n", rows.dump(2).c_str());
+    records.rows.push_back({one.p, one.error, one.s.real(), one.s.imag()});
+  return records;
 }
 
 int run_suggest(const SuggestArguments& arguments) {
-  const TraceSetup setup =
-      prepare_trace(with_settings_of(arguments, scene_of(arguments.scene)),
-                    {arguments.options.begin(), arguments.options.end()}, Purpose::operating_point);
-  warn_of_unused(setup.scene, *setup.model);
+  const TraceSetup setup = given_setup(arguments, scene_of(arguments.scene), Purpose::operating_point);
   const std::vector<Suggestion> all = suggest_samples(setup);
   const double tolerance = setup.options.tolerance;
   const auto above = static_cast<std::size_t>(
@@ -68,7 +55,7 @@ int run_suggest(const SuggestArguments& arguments) {
   std::vector<Suggestion> first = all;
   first.resize(std::min(above, static_cast<std::size_t>(arguments.count)));
   if (arguments.json) {
-    print_json(first);
+    print(records_of(first), {.json = true});
     return done;
   }
   std::printf("%zu samples, relative error of eigenvalues between them up to %s\n", all.size() + 1,
@@ -96,26 +83,20 @@ int run_suggest(const SuggestArguments& arguments) {
 }  // namespace
 
 void add_suggest(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<SuggestArguments>();
-  CLI::App* command =
-      program.add_subcommand("suggest", "at which values of the parameter to compute more samples");
+  const auto [command, arguments] = add_command<SuggestArguments>(
+      program, exit_code, run_suggest, "suggest", "at which values of the parameter to compute more samples");
   command->add_option("FILE", arguments->scene, "scene with a [sampled_family], or its samples (.h5)")
       ->required();
   add_settings(*command, *arguments);
   command->add_option("--count", arguments->count, "largest number of values")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  for (const std::string name : {"from", "to", "tolerance", "modes"}) {
-    command->add_option_function<std::string>(
-        "--" + name, [arguments, name](const std::string& text) { arguments->options[name] = text; },
-        "as for trace (overrides the scene)");
-  }
+  add_overrides(*command, *arguments, {"from", "to", "tolerance", "modes"});
   command->add_flag("--json", arguments->json, "print a list of objects");
   command->footer(
       "Examples:\n"
       "  eigentrail suggest turbine.toml --modes \"band = ['0.1 Hz', '3 Hz']\"\n"
       "  eigentrail suggest samples.h5 --tolerance 1e-4 --count 1");
-  command->callback([arguments, &exit_code] { exit_code = run_suggest(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -3,18 +3,13 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <memory>
 
-#include "check_output.hpp"
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
-#include "eigentrail/store/output_file.hpp"
-#include "parts.hpp"
-#include "progress_bar.hpp"
 #include "scene_arguments.hpp"
+#include "shared_job.hpp"
 #include "sweep_run.hpp"
-#include "trace_flags.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
@@ -25,10 +20,8 @@ constexpr std::size_t most_runs = 1'000'000;
 struct SweepArguments : SceneArguments {
   std::vector<std::string> vary;  ///< NAME=VALUES
   OutputChoice output;            ///< a folder
-  std::optional<Part> part;
   int jobs = 0;
   SaveOptions saving;
-  std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 };
 
 /// Reads the texts of --vary.
@@ -70,17 +63,8 @@ std::string run_name(std::size_t number, std::size_t runs) {
   return "run_" + std::string(digits - text.size(), '0') + text + ".h5";
 }
 
-bool is_index(const std::string& path) {
-  std::ifstream file(path);
-  std::string begin(9, '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == "run,file,";
-}
-
-void check_index(const std::string& path, bool force) {
-  check_output(path, force, OtherOutput{is_index, "index of a sweep"});
-  check_can_create(path);
-}
+const OutputFormat index_format{"index of a sweep",
+                                [](const std::string& path) { return begins_with(path, "run,file,"); }};
 
 /// Makes the folder if it is not there, and checks the files that will be written into it.
 void check_folder(const std::string& folder, bool force, const std::vector<std::size_t>& runs,
@@ -90,9 +74,9 @@ void check_folder(const std::string& folder, bool force, const std::vector<std::
   std::filesystem::create_directory(folder, error);
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder + ": cannot be made a folder" + (error ? ": " + error.message() : ""));
+  const OutputFormat loci_output = hdf5_format(loci_format, "loci file");
   for (const std::size_t run : runs)
-    check_output((std::filesystem::path(folder) / run_name(run, n_runs)).string(), force,
-                 {"eigentrail-loci", "loci file"});
+    check_output((std::filesystem::path(folder) / run_name(run, n_runs)).string(), force, loci_output);
 }
 
 /// Whether there is an index with a line for each run, and loci files of these runs. Throws InputError if
@@ -123,7 +107,7 @@ int finish_sweep(const std::string& header, const std::vector<std::string>& line
     if (failed++ == 0) first_failure = bytes.substr(1, bytes.find(',') - 1);
   }
   const std::string& index = output.path;
-  write_durably(index, {text}, existing(output.force));
+  write_durably(index, {text}, output.existing());
   if (!output.quiet)
     std::printf("wrote %s: %zu runs, %zu of them failed\n", index.c_str(), lines.size(), failed);
   if (failed == 0) return done;
@@ -144,67 +128,59 @@ SharedRun shared_run(const Scene& scene, const SweepArguments& arguments, const 
   return run;
 }
 
+SharedJob sweep_job(SharedRun run, const OutputChoice& output, const Team& team) {
+  SharedJob job{std::move(run), index_format};
+  job.finish = [header = job.run.setting("header").value_or(""), &output, &team](
+                   const std::vector<std::string>& lines, Workers&, std::optional<double>) {
+    return team.leads() ? finish_sweep(header, lines, output) : done;
+  };
+  return job;
+}
+
 int run_sweep(SweepArguments& arguments, Team& team) {
+  arguments.output.name_like(arguments.scene, "_sweep");
   const Scene scene = given_scene(arguments);
   const Combinations runs = read_combinations(arguments, scene);
-  const std::vector<std::size_t> numbers = arguments.part.value_or(Part{}).pieces(runs.size());
   const std::filesystem::path folder = arguments.output.path;
-  OutputChoice part_file = arguments.output;
-  if (arguments.part)
-    part_file.path = (folder / ("part-" + std::to_string(arguments.part->number) + "-of-" +
-                                std::to_string(arguments.part->count) + ".h5"))
-                         .string();
-  OutputChoice index = arguments.output;
-  index.path = (folder / "index.csv").string();
-  OutputChoice& list = arguments.part ? part_file : index;
-  const SharedRun run = shared_run(scene, arguments, runs);
-  const OptionTexts options(arguments.options.begin(), arguments.options.end());
   const auto path = [&](std::size_t number) { return (folder / run_name(number, runs.size())).string(); };
-  const bool ended = arguments.part ? has_ended(list, team, run, arguments.part) : has_ended(list, team, [&] {
-    return has_index(list.path, path, scene, runs, options);
-  });
-  if (ended) return done;
-  const auto unfinished = unfinished_run(list, run, arguments.part, team);
-  if (team.leads()) {
+  const OptionTexts options = arguments.overrides();
+  OutputChoice list = arguments.output;
+  list.path = (folder / (list.part ? part_ending(*list.part) + ".h5" : "index.csv")).string();
+  SharedJob job = sweep_job(shared_run(scene, arguments, runs), list, team);
+  job.jobs = arguments.jobs;
+  job.leaves_more_files = true;
+  job.is_whole = [&] { return has_index(list.path, path, scene, runs, options); };
+  job.check_more_files = [&] {
+    const std::vector<std::size_t> numbers = list.part.value_or(Part{}).pieces(runs.size());
     check_folder(arguments.output.path, list.force, numbers, runs.size());
-    arguments.part ? check_part_output(list) : check_index(list.path, list.force);
-    unfinished->begin();
-  }
-  arguments.saving.existing = existing(list.force);
-  SavingWorkers workers(team.workers(arguments.jobs), *unfinished);
-  ProgressBar progress(arguments.output.quiet);
-  const auto trace_one = [&](std::size_t number) {
-    SweepRow row = run_of_sweep(scene, runs.settings(number), options, path(number), arguments.saving);
-    row.run = number + 1;
-    row.values = runs.values(number);
-    return std::to_string(row.exit_code) + index_line(row);
   };
-  std::vector<std::string> lines = workers.compute(
-      {"run", numbers, trace_one}, [&](std::size_t finished, std::size_t, const std::string&) {
-        progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
-                        static_cast<int>(finished), "runs");
-      });
-  progress.finish();
-  if (!team.leads()) return done;
-  return end_run(*unfinished, [&] {
-    if (arguments.part) return write_part(part_file, run, *arguments.part, std::move(lines));
-    return finish_sweep(index_header(runs.varied()), lines, index);
-  });
+  job.compute = [&](const std::vector<std::size_t>& numbers, Workers& workers, ProgressBar& progress) {
+    arguments.saving.existing = list.existing();
+    const auto trace_one = [&](std::size_t number) {
+      SweepRow row = run_of_sweep(scene, runs.settings(number), options, path(number), arguments.saving);
+      row.run = number + 1;
+      row.values = runs.values(number);
+      return std::to_string(row.exit_code) + index_line(row);
+    };
+    return workers.compute(
+        {"run", numbers, trace_one}, [&](std::size_t finished, std::size_t, const std::string&) {
+          progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
+                          static_cast<int>(finished), "runs");
+        });
+  };
+  return carry_out(job, list, team);
 }
 
 }  // namespace
 
-int merge_sweep(const SharedRun& run, const std::vector<std::string>& pieces, const OutputChoice& output,
-                Team& team) {
-  if (!team.leads()) return done;
-  check_index(output.path, output.force);
-  return finish_sweep(run.setting("header").value_or(""), pieces, output);
+SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
+  return sweep_job(run, output, team);
 }
 
 void add_sweep(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<SweepArguments>();
-  CLI::App* command = program.add_subcommand(
-      "sweep", "trace a scene for all combinations of values of some parameters, on all cores");
+  const auto [command, arguments] = add_command<SweepArguments>(
+      program, exit_code, in_team(run_sweep, together), "sweep",
+      "trace a scene for all combinations of values of some parameters, on all cores");
   add_scene(*command, *arguments);
   command
       ->add_option(
@@ -213,23 +189,18 @@ void add_sweep(CLI::App& program, int& exit_code) {
           "be repeated, the last one changes fastest")
       ->required()
       ->allow_extra_args(false);
-  auto* output = command->add_option(
-      "-o,--output", arguments->output.path,
-      "folder for the loci files and their index (index.csv); default: SCENE_sweep, here");
-  add_part(*command, arguments->part);
+  add_output(*command, arguments->output,
+             "folder for the loci files and their index (index.csv); default: SCENE_sweep, here");
+  add_part(*command, arguments->output);
   command->add_option("--jobs", arguments->jobs, "runs at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
-  add_output_flags(*command, arguments->output, "replace existing files of the same runs");
+  add_output_flags(*command, arguments->output, {.force = "replace existing files of the same runs"});
   add_no_lock(*command, arguments->saving);
-  add_trace_options(*command, arguments->options);
+  add_trace_options(*command, *arguments);
   command->footer(
       "Example:\n"
       "  eigentrail sweep data/scenes/rotating_mass.toml --vary drag=5,10,20 --vary a_n=500:500:2000 -o "
       "drag");
-  command->callback([arguments, output, &exit_code] {
-    if (output->count() == 0) arguments->output.path = beside(arguments->scene, "_sweep");
-    exit_code = together([&](Team& team) { return run_sweep(*arguments, team); });
-  });
 }
 
 }  // namespace eigentrail::app

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <mutex>
 
 #include "commands.hpp"
-#include "eigentrail/accuracy/findings.hpp"
+#include "core/hdf5_writer.hpp"
+#include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
@@ -17,12 +17,6 @@ namespace {
 
 /// Places of a step at which damping ratios are looked at, beside its ends.
 constexpr int places_per_step = 16;
-
-/// The HDF5 library must not be used by two threads at once. All threads of a sweep take turns.
-std::mutex& turn_at_files() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 std::string csv_number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? exact_text(*value) : "";
@@ -38,67 +32,25 @@ std::optional<double> first_of(EventKind kind, const std::vector<Event>& events,
 
 TraceSetup setup_of(const Scene& scene, const std::vector<std::string>& settings,
                     const OptionTexts& options) {
-  const std::scoped_lock turn(turn_at_files());
+  const Hdf5Turn turn;
   return prepare_trace(with_settings(scene, settings).scene, options);
 }
 
-/// A trace whose points go to a loci file.
-class RunOfSweep {
- public:
-  RunOfSweep(TraceSetup setup, const std::string& path, const SaveOptions& saving)
-      : setup_(std::move(setup)), path_(path), saving_(saving) {}
-  ~RunOfSweep() {
-    const std::scoped_lock turn(turn_at_files());
-    writer_.reset();
-  }
-  RunOfSweep(const RunOfSweep&) = delete;
-  RunOfSweep& operator=(const RunOfSweep&) = delete;
-
-  void into(SweepRow& row) {
-    TraceResult result = trace(*setup_.model, setup_.options, observer());
-    if (!has_started(result.status)) throw InputError(setup_.scene.path + ": " + result.message);
-    const Findings found = find_ranges_and_errors(*setup_.model, setup_.options, recorder_.path(), result);
-    {
-      const std::scoped_lock turn(turn_at_files());
-      writer_->finish(result, found.ranges, found.errors ? &*found.errors : nullptr);
-    }
-    row.file = std::filesystem::path(path_).filename().string();
-    row.points = result.nodes;
-    row.reached = result.reached;
-    row.flutter = first_of(EventKind::flutter, result.events, setup_.options.from);
-    row.divergence = first_of(EventKind::divergence, result.events, setup_.options.from);
-    row.damping = least_damping(found.path);
-    row.exit_code = result.status == TraceStatus::completed ? done : numbers_failed;
-    row.reason = result.message;
-  }
-
- private:
-  TraceObserver observer() {
-    TraceObserver observer;
-    observer.started = [this](const TraceStart& start) { started_ = start; };
-    observer.point = [this](const TracePoint& point) {
-      const std::scoped_lock turn(turn_at_files());
-      if (!writer_)
-        writer_.emplace(path_, setup_.scene, *setup_.model, setup_.options, started_, point, saving_);
-      writer_->append(point);
-      recorder_.append(point);
-      return true;
-    };
-    observer.checkpoint = [this](const Checkpoint& checkpoint) {
-      const std::scoped_lock turn(turn_at_files());
-      writer_->checkpoint(checkpoint);
-      return true;
-    };
-    return observer;
-  }
-
-  TraceSetup setup_;
-  const std::string& path_;
-  const SaveOptions& saving_;
-  TraceStart started_;
-  std::optional<LociWriter> writer_;
-  PathRecorder recorder_;
-};
+void trace_into(SweepRow& row, const TraceSetup& setup, const std::string& path, const SaveOptions& saving) {
+  RecordedTrace recorded(setup, {}, path, saving);
+  const TraceResult& result = recorded.begin();
+  if (!has_started(result.status)) throw InputError(setup.scene.path + ": " + result.message);
+  const Findings found = recorded.find();
+  recorded.finish(found);
+  row.file = std::filesystem::path(path).filename().string();
+  row.points = result.nodes;
+  row.reached = result.reached;
+  row.flutter = first_of(EventKind::flutter, result.events, setup.options.from);
+  row.divergence = first_of(EventKind::divergence, result.events, setup.options.from);
+  row.damping = least_damping(found.path);
+  row.exit_code = result.status == TraceStatus::completed ? done : numbers_failed;
+  row.reason = result.message;
+}
 
 }  // namespace
 
@@ -173,8 +125,7 @@ SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settin
     TraceSetup setup = setup_of(scene, settings, options);
     project_if_large(setup.model, setup.options);
     check_parameter_name(setup.scene, setup.options.parameter);
-    RunOfSweep run(std::move(setup), path, saving);
-    run.into(row);
+    trace_into(row, setup, path, saving);
   } catch (const InputError& error) {
     row.exit_code = bad_input;
     row.reason = error.what();

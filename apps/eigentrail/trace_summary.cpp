@@ -47,7 +47,7 @@ void print_heading(const TraceSummary& trace) {
   const TraceOptions& options = trace.setup.options;
   const TraceResult& result = trace.result;
   const std::string& unit = trace.setup.model->description().parameters.at(options.parameter).unit;
-  if (!trace.setup.scene.title.empty()) std::printf("%s\n", printable(trace.setup.scene.title).c_str());
+  print_title(trace.setup.scene.title);
   std::printf("  %s  %s -> %s%s, tolerance %s, %s, %d of %d modes, %lld freedoms\n",
               options.parameter.c_str(), exact_text(options.from).c_str(), exact_text(result.reached).c_str(),
               (unit.empty() ? unit : ' ' + unit).c_str(), exact_text(options.tolerance).c_str(),
@@ -145,12 +145,6 @@ std::vector<std::string> critical_speed_row(const TraceSummary& trace, const Fou
           found.interval};
 }
 
-void print_rows(const char* heading, const std::vector<std::vector<std::string>>& rows) {
-  if (rows.empty()) return;
-  std::printf("  %s\n", heading);
-  print_table(rows);
-}
-
 /// "7 % from the operating range, 15 % wanted"; empty if a critical speed keeps its distance.
 std::string separation_text(const Separation& found) {
   if (!found.is_too_close()) return "";
@@ -195,10 +189,10 @@ void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) 
     remark += (remark.empty() || found.interval.empty() ? "" : ", ") + found.interval;
     (is_onset(found.event) ? onsets : others).push_back(std::move(row));
   }
-  print_rows("onset of instability", onsets);
-  print_rows("critical speeds", critical);
+  print_section(stdout, "  onset of instability", onsets);
+  print_section(stdout, "  critical speeds", critical);
   print_separations(trace);
-  print_rows("other special points", others);
+  print_section(stdout, "  other special points", others);
   for (const std::string& note : trace.result.notes) std::printf("  note  %s\n", note.c_str());
 }
 

@@ -90,6 +90,11 @@ double read_value(const std::string& option, const std::string& text, const Para
   return in_unit(parameter, *measure, option);
 }
 
+Parameter parameter_called(const Scene& scene, const std::string& name) {
+  const auto index = scene.parameters.index(name);
+  return index ? scene.parameters[static_cast<std::size_t>(*index)] : Parameter{};
+}
+
 Parameter parameter_of_file(const std::string& name, const std::string& unit) {
   Parameter parameter;
   parameter.name = name;

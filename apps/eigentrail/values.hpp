@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eigentrail/scene/parameters.hpp"
+#include "eigentrail/scene/scene.hpp"
 
 namespace eigentrail::app {
 
@@ -16,6 +16,10 @@ std::vector<double> read_values(const std::string& option, const std::vector<std
 
 /// One value.
 double read_value(const std::string& option, const std::string& text, const Parameter& parameter);
+
+/// The parameter of a scene with this name; one without a unit where there is none, which is reported where
+/// the options are checked.
+Parameter parameter_called(const Scene& scene, const std::string& name);
 
 /// The parameter of a loci file, whose unit values are in. A unit that this version does not know counts as
 /// none.

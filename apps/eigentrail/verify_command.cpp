@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <memory>
 
 #include "commands.hpp"
 #include "eigentrail/accuracy/verify.hpp"
@@ -47,9 +46,9 @@ int run_verify(const VerifyArguments& arguments) {
 }  // namespace
 
 void add_verify(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<VerifyArguments>();
-  CLI::App* command = program.add_subcommand(
-      "verify", "check all that a loci file says: solved by another method, and traced again");
+  const auto [command, arguments] = add_command<VerifyArguments>(
+      program, exit_code, run_verify, "verify",
+      "check all that a loci file says: solved by another method, and traced again");
   command->add_option("FILE", arguments->file, "loci file")->required();
   command
       ->add_option("--samples", arguments->options.samples,
@@ -61,7 +60,6 @@ void add_verify(CLI::App& program, int& exit_code) {
   command->footer(
       "Exits with 1 when something is wrong, and says what and where.\n\n"
       "Example:\n  eigentrail verify blade.h5 --samples 1000");
-  command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
 }
 
 }  // namespace eigentrail::app

@@ -8,8 +8,8 @@
 #include "accuracy/grid_interpolant.hpp"
 #include "accuracy/grid_loci.hpp"
 #include "accuracy/spectrum_distance.hpp"
+#include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/accuracy/study.hpp"
-#include "eigentrail/store/loci_writer.hpp"
 
 namespace eigentrail {
 namespace {
@@ -76,24 +76,6 @@ MeasuredRun measure_interpolant(const GridLoci& loci, Interpolation kind, const 
   return run;
 }
 
-/// Traces once, not timed: records the path, and returns the size of the loci file in bytes.
-std::uint64_t record(const TraceSetup& setup, PathRecorder& recorder) {
-  std::optional<TraceStart> started;
-  std::optional<LociWriter> writer;
-  TraceObserver observer;
-  observer.started = [&](const TraceStart& start) { started = start; };
-  observer.point = [&](const TracePoint& point) {
-    if (!writer) writer.emplace(setup.scene, *setup.model, setup.options, *started, point);
-    writer->append(point);
-    recorder.append(point);
-    return true;
-  };
-  const TraceResult result = trace(*setup.model, setup.options, observer);
-  if (!writer) return 0;
-  writer->finish(result, {});
-  return writer->bytes().size();
-}
-
 std::vector<double> equidistant(const TraceOptions& options, int points) {
   std::vector<double> p;
   for (int i = 0; i < points; ++i) p.push_back(options.from + (options.to - options.from) * i / (points - 1));
@@ -106,8 +88,12 @@ MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference
   MeasuredRun run;
   run.method = setup.options.certify ? Method::trace : Method::trace_uncertified;
   run.tolerance = setup.options.tolerance;
-  PathRecorder recorder;
-  run.bytes = record(setup, recorder);
+  RecordedTrace recorded(setup, {});  // not timed
+  recorded.begin();
+  if (recorded.writer()) {
+    recorded.finish({});
+    run.bytes = recorded.writer()->bytes().size();
+  }
   std::vector<double> seconds;
   for (int i = 0; i < repeat; ++i) {
     const TraceResult result = trace(*setup.model, setup.options, {});
@@ -119,7 +105,7 @@ MeasuredRun measure_trace(const TraceSetup& setup, const ReferenceSet& reference
     take_counts(result.counts, run);
   }
   run.seconds = median(seconds);
-  measure_path(recorder.path(), reference, run);
+  measure_path(recorded.path(), reference, run);
   return run;
 }
 

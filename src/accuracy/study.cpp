@@ -71,25 +71,9 @@ std::vector<std::string> find_faults(const StudyOptions& options) {
 
 // How results are written to an archive and read from it (core/archive.hpp).
 
-template <SameAs<ReferenceSample> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [p, passages] = self;
-  visit(p, passages);
-}
-
-template <SameAs<ReferenceSet> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [samples, unsolved, correction, s_ref] = self;
-  visit(samples, unsolved, correction, s_ref);
-}
-
-template <SameAs<MeasuredRun> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [method, interpolation, tolerance, order, completed, message, points, error, worst_parameter,
-         measured, seconds, factorizations, spectra, evaluations, bytes] = self;
-  visit(method, interpolation, tolerance, order, completed, message, points, error, worst_parameter, measured,
-        seconds, factorizations, spectra, evaluations, bytes);
-}
+Members<2> archived(const ReferenceSample*);
+Members<4> archived(const ReferenceSet*);
+Members<15> archived(const MeasuredRun*);
 
 Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
                      const std::function<void(int, int)>& progress) try {

@@ -1,6 +1,6 @@
-// How parts of results that several archives hold are written to an archive and read from it: each function
-// lists the members of a struct (core/archive.hpp). They decompose the structs by a structured binding: if a
-// member is added to a struct and not listed here, the code does not compile.
+// Parts of results that several archives hold, all of whose members are written to an archive and read from
+// it (core/archive.hpp). If a member is added to a struct, the code does not compile until its number is
+// changed.
 #pragma once
 
 #include "core/archive.hpp"
@@ -8,44 +8,11 @@
 
 namespace eigentrail {
 
-template <SameAs<Path> Self, class Visit>
-void fields(Self& self, Visit& visit) {
-  auto& [parameters, x, lambda] = self;
-  visit(parameters, x, lambda);
-}
-
-template <SameAs<PairSeries> Self, class Visit>
-void fields(Self& self, Visit& visit) {
-  auto& [Z, Lambda] = self;
-  visit(Z, Lambda);
-}
-
-template <SameAs<EquilibriumGuess> Self, class Visit>
-void fields(Self& self, Visit& visit) {
-  auto& [x, lambda, solved] = self;
-  visit(x, lambda, solved);
-}
-
-template <SameAs<EvaluationCounts> Self, class Visit>
-void fields(Self& self, Visit& visit) {
-  auto& [residual, linearization] = self;
-  visit(residual, linearization);
-}
-
-template <SameAs<ModeCounts> Self, class Visit>
-void fields(Self& self, Visit& visit) {
-  auto& [factorizations, iterations, solves, passed, modal_bases, modal_solves] = self;
-  visit(factorizations, iterations, solves, passed, modal_bases, modal_solves);
-}
-
-template <SameAs<RunCounts> Self, class Visit>
-void fields(Self& self, Visit& visit) {
-  auto& [evaluations, modes, iterations, factorizations, spectra, event_factorizations,
-         certificate_factorizations, certificate_bases, work, in_vain, equilibrium, reduction, correction,
-         differentiation, matching, certificate, events, output] = self;
-  visit(evaluations, modes, iterations, factorizations, spectra, event_factorizations,
-        certificate_factorizations, certificate_bases, work, in_vain, equilibrium, reduction, correction,
-        differentiation, matching, certificate, events, output);
-}
+Members<3> archived(const Path*);
+Members<2> archived(const PairSeries*);
+Members<3> archived(const EquilibriumGuess*);
+Members<2> archived(const EvaluationCounts*);
+Members<6> archived(const ModeCounts*);
+Members<18> archived(const RunCounts*);
 
 }  // namespace eigentrail

@@ -2,9 +2,9 @@
 // processes.
 //
 // A struct lists its members once, in fields(self, visit), a static member function or a function that is
-// found by argument-dependent lookup. Writing and reading both use that list. Reading does not trust its
-// input: every count is checked against the number of bytes left, so damaged input raises an ArchiveError and
-// never accesses memory out of bounds.
+// found by argument-dependent lookup, or says that all of them are archived. Writing and reading both use
+// that. Reading does not trust its input: every count is checked against the number of bytes left, so damaged
+// input raises an ArchiveError and never accesses memory out of bounds.
 #pragma once
 
 #include <array>
@@ -33,6 +33,65 @@ class ArchiveError : public std::runtime_error {
 template <class Self, class T>
 concept SameAs = std::is_same_v<std::remove_const_t<Self>, T>;
 
+/// An aggregate all of whose members are archived, in their order, says how many it has, by the
+/// declaration of a function beside it: Members<2> archived(const Pair*). Another number than its own does
+/// not compile.
+template <int count>
+using Members = std::integral_constant<int, count>;
+
+template <class T>
+concept AllArchived = requires(const T* value) {
+  archived(value);
+};
+
+/// Calls `visit` with all members of an aggregate.
+template <class Self, class Visit>
+void visit_members(Self& self, Visit& visit) {
+  constexpr int count = decltype(archived(&self))::value;
+  if constexpr (count == 1) {
+    auto& [a] = self;
+    visit(a);
+  } else if constexpr (count == 2) {
+    auto& [a, b] = self;
+    visit(a, b);
+  } else if constexpr (count == 3) {
+    auto& [a, b, c] = self;
+    visit(a, b, c);
+  } else if constexpr (count == 4) {
+    auto& [a, b, c, d] = self;
+    visit(a, b, c, d);
+  } else if constexpr (count == 5) {
+    auto& [a, b, c, d, e] = self;
+    visit(a, b, c, d, e);
+  } else if constexpr (count == 6) {
+    auto& [a, b, c, d, e, f] = self;
+    visit(a, b, c, d, e, f);
+  } else if constexpr (count == 7) {
+    auto& [a, b, c, d, e, f, g] = self;
+    visit(a, b, c, d, e, f, g);
+  } else if constexpr (count == 14) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  } else if constexpr (count == 15) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  } else if constexpr (count == 16) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+  } else if constexpr (count == 17) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+  } else if constexpr (count == 18) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  } else if constexpr (count == 19) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+  } else {
+    static_assert(count == 1, "a size without a line here");
+  }
+}
+
 template <class T>
 inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Complex>;
 
@@ -53,6 +112,8 @@ class ArchiveWriter {
   void write(const T& value) {
     if constexpr (is_plain<T>) {
       append(&value, sizeof value);
+    } else if constexpr (AllArchived<T>) {
+      visit_members(value, *this);
     } else if constexpr (requires { T::fields(value, *this); }) {
       T::fields(value, *this);
     } else {
@@ -169,6 +230,8 @@ class ArchiveReader {
       value = byte == 1;
     } else if constexpr (is_plain<T>) {
       take(&value, sizeof value);
+    } else if constexpr (AllArchived<T>) {
+      visit_members(value, *this);
     } else if constexpr (requires { T::fields(value, *this); }) {
       T::fields(value, *this);
     } else {

@@ -255,6 +255,10 @@ void Hdf5Writer::set_attribute(const std::string& name, std::int64_t value) {
   write_attribute(implementation_->file, name, H5T_NATIVE_INT64, &value);
 }
 
+bool Hdf5Writer::has(const std::string& dataset) const {
+  return H5Lexists(implementation_->file, dataset.c_str(), H5P_DEFAULT) > 0;
+}
+
 Shape Hdf5Writer::shape(const std::string& dataset) const {
   return implementation_->shape(dataset);
 }

@@ -76,6 +76,7 @@ class Hdf5Writer {
   /// The bytes of the file as they would be on disk.
   std::string image();
 
+  bool has(const std::string& dataset) const;
   Shape shape(const std::string& dataset) const;
   /// The attribute `units` of a dataset.
   std::string units(const std::string& dataset) const;

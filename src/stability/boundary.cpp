@@ -31,16 +31,12 @@ struct Curve {
 
 }  // namespace
 
+Members<4> archived(const CurveStart*);
+
 template <SameAs<Walk> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
   auto& [seed, counts] = self;
   visit(seed, counts);
-}
-
-template <SameAs<CurveStart> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [point, failure, remark, counts] = self;
-  visit(point, failure, remark, counts);
 }
 
 template <SameAs<Curve> Self, class Visit>

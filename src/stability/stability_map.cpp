@@ -68,19 +68,8 @@ std::vector<double> first_values(const MapSetup& setup) {
 
 // How a line is written to an archive and read from it (core/archive.hpp).
 
-template <SameAs<AxisPoint> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [p, kind, frequency] = self;
-  visit(p, kind, frequency);
-}
-
-template <SameAs<MapLine> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points,
-         status, message, reached, turned_back, n_modes, n_available, n_independent, counts] = self;
-  visit(second, unstable, margin, damping_ratio, marginal_cells, doubtful_cells, partial_cells, axis_points,
-        status, message, reached, turned_back, n_modes, n_available, n_independent, counts);
-}
+Members<3> archived(const AxisPoint*);
+Members<16> archived(const MapLine*);
 
 std::uint64_t MapLine::factorizations() const {
   return counts.modes.factorizations + counts.certificate_factorizations + counts.event_factorizations;

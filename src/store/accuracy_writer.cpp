@@ -1,9 +1,7 @@
 #include "eigentrail/store/accuracy_writer.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <numeric>
 
 #include "core/hdf5_writer.hpp"
 #include "store/labelled_datasets.hpp"
@@ -11,12 +9,6 @@
 
 namespace eigentrail {
 namespace {
-
-std::vector<std::int64_t> numbers(std::size_t count) {
-  std::vector<std::int64_t> result(count);
-  std::iota(result.begin(), result.end(), 0);
-  return result;
-}
 
 void write_attributes(Hdf5Writer& file, const TraceSetup& setup, const StudyOptions& options,
                       const ReferenceSet& reference) {
@@ -27,51 +19,28 @@ void write_attributes(Hdf5Writer& file, const TraceSetup& setup, const StudyOpti
   file.set_attribute("repeat", std::int64_t{options.repeat});
 }
 
-/// Writes one number or text of every run along the dimension `run`.
-class RunColumns {
- public:
-  RunColumns(Hdf5Writer& file, const std::vector<MeasuredRun>& runs) : file_(file), runs_(runs) {
-    write_dimension(file, {"run", "1", "a method at one setting"}, numbers(runs.size()));
-  }
-
-  template <class Element, class Field>
-  void write(const DatasetLabel& label, Field field) {
-    std::vector<Element> column;
-    for (const MeasuredRun& run : runs_) column.push_back(static_cast<Element>(field(run)));
-    write_dataset(file_, label, {"run"}, column);
-  }
-
- private:
-  Hdf5Writer& file_;
-  const std::vector<MeasuredRun>& runs_;
-};
-
 void write_runs(Hdf5Writer& file, const std::vector<MeasuredRun>& runs, const std::string& parameter_unit) {
   using Run = MeasuredRun;
-  RunColumns columns(file, runs);
-  columns.write<std::string>({"method", "1", "what was run"}, [](const Run& run) { return run_name(run); });
-  columns.write<double>({"run_tolerance", "1", "tolerance asked for; NaN: none"},
-                        std::mem_fn(&Run::tolerance));
-  columns.write<std::int64_t>({"order", "1", "order of the series; 0: none"}, std::mem_fn(&Run::order));
-  columns.write<std::string>({"status", "1", "completed, or why the run ended early"}, [](const Run& run) {
-    return run.completed ? std::string("completed") : run.message;
+  write_dimension(file, {"run", "1", "a method at one setting"}, counted(runs.size()));
+  const auto write = [&](const DatasetLabel& label, auto field) {
+    write_column(file, label, {"run"}, runs, field);
+  };
+  write({"method", "1", "what was run"}, run_name);
+  write({"run_tolerance", "1", "tolerance asked for; NaN: none"}, &Run::tolerance);
+  write({"order", "1", "order of the series; 0: none"}, &Run::order);
+  write({"status", "1", "completed, or why the run ended early"},
+        [](const Run& run) { return run.completed ? std::string("completed") : run.message; });
+  write({"points", "1", "stored points or grid points"}, &Run::points);
+  write({"error", "1", "largest relative error over the samples; NaN: not measured"}, [](const Run& run) {
+    return run.measured > 0 ? run.error : std::numeric_limits<double>::quiet_NaN();
   });
-  columns.write<std::int64_t>({"points", "1", "stored points or grid points"}, std::mem_fn(&Run::points));
-  columns.write<double>(
-      {"error", "1", "largest relative error over the samples; NaN: not measured"},
-      [](const Run& run) { return run.measured > 0 ? run.error : std::numeric_limits<double>::quiet_NaN(); });
-  columns.write<double>({"error_parameter", parameter_unit, "where the largest error is"},
-                        std::mem_fn(&Run::worst_parameter));
-  columns.write<std::int64_t>({"samples_measured", "1", "samples that the error was measured at"},
-                              std::mem_fn(&Run::measured));
-  columns.write<double>({"wall_time", "s", "median wall time"}, std::mem_fn(&Run::seconds));
-  columns.write<std::int64_t>({"factorizations", "1", "complex LU factorizations, all purposes"},
-                              std::mem_fn(&Run::factorizations));
-  columns.write<std::int64_t>({"spectra", "1", "whole spectra by QZ"}, std::mem_fn(&Run::spectra));
-  columns.write<std::int64_t>({"evaluations", "1", "evaluations of the scene's effects"},
-                              std::mem_fn(&Run::evaluations));
-  columns.write<std::int64_t>({"file_size", "byte", "size of the loci file; 0: none"},
-                              std::mem_fn(&Run::bytes));
+  write({"error_parameter", parameter_unit, "where the largest error is"}, &Run::worst_parameter);
+  write({"samples_measured", "1", "samples that the error was measured at"}, &Run::measured);
+  write({"wall_time", "s", "median wall time"}, &Run::seconds);
+  write({"factorizations", "1", "complex LU factorizations, all purposes"}, &Run::factorizations);
+  write({"spectra", "1", "whole spectra by QZ"}, &Run::spectra);
+  write({"evaluations", "1", "evaluations of the scene's effects"}, &Run::evaluations);
+  write({"file_size", "byte", "size of the loci file; 0: none"}, &Run::bytes);
 }
 
 /// One row per passage of the path through a sample's parameter value.
@@ -92,8 +61,8 @@ void write_references(Hdf5Writer& file, const ReferenceSet& reference, const std
     values.insert(values.end(), row->begin(), row->end());
     values.resize(values.size() + modes - row->size(), Complex(nan, nan));
   }
-  write_dimension(file, {"sample", "1", "a place where errors are measured"}, numbers(rows.size()));
-  write_dimension(file, {"mode", "1", "reference eigenvalue, in no particular order"}, numbers(modes));
+  write_dimension(file, {"sample", "1", "a place where errors are measured"}, counted(rows.size()));
+  write_dimension(file, {"mode", "1", "reference eigenvalue, in no particular order"}, counted(modes));
   write_dataset(file, {"sample_parameter", parameter_unit, "traced parameter at the sample"}, {"sample"},
                 parameters);
   write_dataset(

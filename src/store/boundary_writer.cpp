@@ -1,8 +1,7 @@
 #include "eigentrail/store/boundary_writer.hpp"
 
-#include <algorithm>
 #include <array>
-#include <numeric>
+#include <utility>
 
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
@@ -12,65 +11,25 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 34> boundary_names = {"point",
-                                                    "step",
-                                                    "curve",
-                                                    "corner",
-                                                    "coordinate",
-                                                    "parameter",
-                                                    "function",
-                                                    "end",
-                                                    "order",
-                                                    "bound",
-                                                    "member",
-                                                    "eigenvalue",
-                                                    "tangent",
-                                                    "other_unstable",
-                                                    "mode_shape",
-                                                    "equilibrium",
-                                                    "flags",
-                                                    "point_curve",
-                                                    "step_point",
-                                                    "step_curve",
-                                                    "step_length",
-                                                    "dense_output",
-                                                    "curve_kind",
-                                                    "curve_mode",
-                                                    "curve_begin",
-                                                    "curve_end",
-                                                    "curve_closed",
-                                                    "curve_first",
-                                                    "curve_points",
-                                                    "curve_extent",
-                                                    "corner_kind",
-                                                    "corner_parameter",
-                                                    "corner_eigenvalue",
-                                                    "corner_curve"};
-
-std::vector<std::int64_t> count_to(std::size_t n) {
-  std::vector<std::int64_t> list(n);
-  std::iota(list.begin(), list.end(), std::int64_t{0});
-  return list;
-}
-
 class BoundaryFile {
  public:
-  BoundaryFile(const BoundarySetup& setup, const BoundaryResult& result)
+  BoundaryFile(const BoundarySetup& setup, const BoundaryResult& result, const Parameter& first,
+               const Parameter& second)
       : file_(Hdf5Writer::in_memory("boundary file")),
         setup_(setup),
         result_(result),
-        first_(setup.scene.parameters.at(setup.options.trace.parameter)),
-        second_(setup.scene.parameters.at(setup.options.second)) {}
+        first_(first),
+        second_(second) {}
 
-  /// The bytes of the whole file.
-  std::string write() {
+  /// The whole file.
+  Hdf5Writer& write() {
     write_attributes();
     write_dimensions();
     write_points();
     write_steps();
     write_curves();
     write_corners();
-    return file_.image();
+    return file_;
   }
 
  private:
@@ -79,12 +38,14 @@ class BoundaryFile {
     write_dimension(file_, {name, "1", long_name}, values);
   }
 
-  template <class Value>
-  void dataset(const DatasetLabel& label, const std::vector<std::string>& dimensions,
-               const std::vector<Value>& data, std::map<std::string, std::string> attributes = {}) {
+  /// Of `records` along the first dimension.
+  template <class Record, class Field>
+  void column(const DatasetLabel& label, const std::vector<std::string>& dimensions,
+              const std::vector<Record>& records, Field field,
+              std::map<std::string, std::string> attributes = {}) {
     if (dimensions[0] == "point" && label.name != first_.name && label.name != second_.name)
       attributes["coordinates"] = first_.name + " " + second_.name;
-    write_dataset(file_, label, dimensions, data, std::move(attributes));
+    write_column(file_, label, dimensions, records, field, std::move(attributes));
   }
 
   void write_attributes();
@@ -136,10 +97,10 @@ void BoundaryFile::write_dimensions() {
     points += curve.points.size();
     steps += curve.steps.size();
   }
-  dimension("point", count_to(points), "point of a curve");
-  dimension("step", count_to(steps), "step from a point of a curve to the next");
-  dimension("curve", count_to(result_.curves.size()), "curve");
-  dimension("corner", count_to(result_.corners.size()), "point that belongs to two curves");
+  dimension("point", counted(points), "point of a curve");
+  dimension("step", counted(steps), "step from a point of a curve to the next");
+  dimension("curve", counted(result_.curves.size()), "curve");
+  dimension("corner", counted(result_.corners.size()), "point that belongs to two curves");
   dimension("coordinate", setup_.model->description().coordinate_names, "coordinate");
   dimension("parameter", std::vector<std::string>{first_.name, second_.name}, "parameter of the plane");
   dimension("function",
@@ -147,135 +108,139 @@ void BoundaryFile::write_dimensions() {
             "what is interpolated: the parameters, and of the pair s, conj s the mean tau and delta; "
             "s = tau + sqrt(delta)");
   dimension("end", std::vector<std::string>{"left", "right"}, "end of a step");
-  dimension("order", count_to(static_cast<std::size_t>(setup_.options.trace.order.value_or(usual_order)) + 1),
+  dimension("order", counted(static_cast<std::size_t>(setup_.options.trace.order.value_or(usual_order)) + 1),
             "power of the distance from the end of the step");
   dimension("bound", std::vector<std::string>{"lowest", "highest"}, "bound of an extent");
   dimension("member", std::vector<std::string>{"first", "second"}, "the two curves that meet in a corner");
 }
 
-void BoundaryFile::write_points() {
-  std::vector<double> P, Q, tangent, equilibrium;
-  std::vector<Complex> eigenvalue, shape;
-  std::vector<std::int64_t> curve_number, others, flags;
-  for (std::size_t i = 0; i < result_.curves.size(); ++i) {
-    for (const BoundaryPoint& point : result_.curves[i].points) {
-      P.push_back(point.place[0]);
-      Q.push_back(point.place[1]);
-      tangent.insert(tangent.end(), point.tangent.begin(), point.tangent.end());
-      eigenvalue.push_back(point.s);
-      shape.insert(shape.end(), point.shape.begin(), point.shape.end());
-      equilibrium.insert(equilibrium.end(), point.equilibrium.begin(), point.equilibrium.end());
-      curve_number.push_back(static_cast<std::int64_t>(i));
-      others.push_back(point.others);
-      flags.push_back(point.flags);
-    }
+/// A point, or a step and the number of its first point, with the number of its curve.
+struct PointOfCurve {
+  const BoundaryPoint* point;
+  std::size_t curve;
+};
+struct StepOfCurve {
+  const BoundaryStep* step;
+  std::size_t curve, first;
+};
+
+/// Rows of the functions, of each the series at both ends.
+std::vector<double> series_of(const BoundaryStep& step) {
+  std::vector<double> series;
+  for (Eigen::Index row = 0; row < step.left.rows(); ++row) {
+    for (const Matrix* end : {&step.left, &step.right})
+      series.insert(series.end(), end->row(row).begin(), end->row(row).end());
   }
-  dataset({first_.name, label_unit(first_.unit), "first parameter " + first_.name}, {"point"}, P);
-  dataset({second_.name, label_unit(second_.unit), "second parameter " + second_.name}, {"point"}, Q);
-  dataset({"point_curve", "1", "curve that the point belongs to"}, {"point"}, curve_number);
-  dataset({"eigenvalue", "1/s", "eigenvalue s on the boundary, Im s >= 0"}, {"point"}, eigenvalue);
-  dataset({"tangent", "1",
-           "direction of the curve in the parameters' units, of unit length where the window has side one"},
-          {"point", "parameter"}, tangent);
-  dataset({"other_unstable", "1",
-           "number of other modes that are unstable (less damped); 0: the point bounds the stable region"},
-          {"point"}, others);
-  dataset({"mode_shape", "1",
-           "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
-          {"point", "coordinate"}, shape);
-  dataset({"equilibrium", setup_.model->description().coordinate_units[0], "steady equilibrium x0"},
-          {"point", "coordinate"}, equilibrium);
-  dataset({"flags", "1", "what is special about the point"}, {"point"}, flags,
-          {{"flag_meanings", "seed:1 edge:2 takens_bogdanov:4"}});
+  return series;
+}
+
+void BoundaryFile::write_points() {
+  std::vector<PointOfCurve> points;
+  for (std::size_t i = 0; i < result_.curves.size(); ++i) {
+    for (const BoundaryPoint& point : result_.curves[i].points) points.push_back({&point, i});
+  }
+  const auto of_point = [](auto member) {
+    return [member](const PointOfCurve& one) { return one.point->*member; };
+  };
+  const auto coordinate = [](int i) { return [i](const PointOfCurve& one) { return one.point->place[i]; }; };
+  column({first_.name, label_unit(first_.unit), "first parameter " + first_.name}, {"point"}, points,
+         coordinate(0));
+  column({second_.name, label_unit(second_.unit), "second parameter " + second_.name}, {"point"}, points,
+         coordinate(1));
+  column({"point_curve", "1", "curve that the point belongs to"}, {"point"}, points, &PointOfCurve::curve);
+  column({"eigenvalue", "1/s", "eigenvalue s on the boundary, Im s >= 0"}, {"point"}, points,
+         of_point(&BoundaryPoint::s));
+  column({"tangent", "1",
+          "direction of the curve in the parameters' units, of unit length where the window has side one"},
+         {"point", "parameter"}, points, of_point(&BoundaryPoint::tangent));
+  column({"other_unstable", "1",
+          "number of other modes that are unstable (less damped); 0: the point bounds the stable region"},
+         {"point"}, points, of_point(&BoundaryPoint::others));
+  column({"mode_shape", "1",
+          "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
+         {"point", "coordinate"}, points, of_point(&BoundaryPoint::shape));
+  column({"equilibrium", setup_.model->description().coordinate_units[0], "steady equilibrium x0"},
+         {"point", "coordinate"}, points, of_point(&BoundaryPoint::equilibrium));
+  column({"flags", "1", "what is special about the point"}, {"point"}, points,
+         of_point(&BoundaryPoint::flags), {{"flag_meanings", "seed:1 edge:2 takens_bogdanov:4"}});
 }
 
 void BoundaryFile::write_steps() {
-  std::vector<double> length, dense;
-  std::vector<std::int64_t> curve_number, left_point;
-  std::int64_t first = 0;
+  std::vector<StepOfCurve> steps;
+  std::size_t first = 0;
   for (std::size_t i = 0; i < result_.curves.size(); ++i) {
     const BoundaryCurve& curve = result_.curves[i];
-    for (std::size_t k = 0; k < curve.steps.size(); ++k) {
-      const BoundaryStep& step = curve.steps[k];
-      length.push_back(step.length);
-      curve_number.push_back(static_cast<std::int64_t>(i));
-      left_point.push_back(first + static_cast<std::int64_t>(k));
-      for (Eigen::Index row = 0; row < step.left.rows(); ++row) {
-        for (const Matrix* end : {&step.left, &step.right})
-          dense.insert(dense.end(), end->row(row).begin(), end->row(row).end());
-      }
-    }
-    first += static_cast<std::int64_t>(curve.points.size());
+    for (std::size_t k = 0; k < curve.steps.size(); ++k) steps.push_back({&curve.steps[k], i, first + k});
+    first += curve.points.size();
   }
-  dataset({"step_curve", "1", "curve that the step belongs to"}, {"step"}, curve_number);
-  dataset({"step_point", "1", "point at the left end of the step; the next one is at its right end"},
-          {"step"}, left_point);
-  dataset({"step_length", "1", "length of the step's chord where the window has side one"}, {"step"}, length);
-  dataset({"dense_output", "1", "series of the functions in the distance along the chord at both ends"},
-          {"step", "function", "end", "order"}, dense);
+  column({"step_curve", "1", "curve that the step belongs to"}, {"step"}, steps, &StepOfCurve::curve);
+  column({"step_point", "1", "point at the left end of the step; the next one is at its right end"}, {"step"},
+         steps, &StepOfCurve::first);
+  column({"step_length", "1", "length of the step's chord where the window has side one"}, {"step"}, steps,
+         [](const StepOfCurve& one) { return one.step->length; });
+  column({"dense_output", "1", "series of the functions in the distance along the chord at both ends"},
+         {"step", "function", "end", "order"}, steps,
+         [](const StepOfCurve& one) { return series_of(*one.step); });
 }
 
 void BoundaryFile::write_curves() {
-  std::vector<std::string> kind, mode, begin, end;
-  std::vector<std::int64_t> closed, first, count;
-  std::vector<double> extent;
-  std::int64_t points = 0;
-  for (const BoundaryCurve& curve : result_.curves) {
-    kind.push_back(boundary_name(curve.kind));
-    mode.push_back(curve.mode);
-    begin.push_back(curve_end_name(curve.begin) +
-                    (curve.begin_reason.empty() ? "" : ": " + curve.begin_reason));
-    end.push_back(curve_end_name(curve.end) + (curve.end_reason.empty() ? "" : ": " + curve.end_reason));
-    closed.push_back(curve.closed() ? 1 : 0);
-    first.push_back(points);
-    count.push_back(static_cast<std::int64_t>(curve.points.size()));
-    points += count.back();
-    const auto [low, high] = curve.extent();
-    for (const Eigen::Index i : {0, 1}) extent.insert(extent.end(), {low[i], high[i]});
-  }
-  dataset({"curve_kind", "1", "flutter, divergence or damping_ratio"}, {"curve"}, kind);
-  dataset({"curve_mode", "1", "mode by ascending abs(s) where it was found"}, {"curve"}, mode);
-  dataset({"curve_begin", "1", "how the curve begins"}, {"curve"}, begin);
-  dataset({"curve_end", "1", "how the curve ends"}, {"curve"}, end);
-  dataset({"curve_closed", "1", "1: it is closed"}, {"curve"}, closed);
-  dataset({"curve_first", "1", "its first point"}, {"curve"}, first);
-  dataset({"curve_points", "1", "number of its points; a closed curve repeats its first"}, {"curve"}, count);
-  dataset({"curve_extent", "1", "lowest and highest parameters, in their units"},
-          {"curve", "parameter", "bound"}, extent);
+  using Curve = BoundaryCurve;
+  const auto write = [this](const DatasetLabel& label, auto field) {
+    column(label, {"curve"}, result_.curves, field);
+  };
+  const auto end_text = [](CurveEnd end, const std::string& reason) {
+    return curve_end_name(end) + (reason.empty() ? "" : ": " + reason);
+  };
+  write({"curve_kind", "1", "flutter, divergence or damping_ratio"},
+        [](const Curve& curve) { return boundary_name(curve.kind); });
+  write({"curve_mode", "1", "mode by ascending abs(s) where it was found"}, &Curve::mode);
+  write({"curve_begin", "1", "how the curve begins"},
+        [&](const Curve& curve) { return end_text(curve.begin, curve.begin_reason); });
+  write({"curve_end", "1", "how the curve ends"},
+        [&](const Curve& curve) { return end_text(curve.end, curve.end_reason); });
+  write({"curve_closed", "1", "1: it is closed"}, &Curve::closed);
+  write({"curve_first", "1", "its first point"}, [next = std::size_t{0}](const Curve& curve) mutable {
+    return std::exchange(next, next + curve.points.size());
+  });
+  write({"curve_points", "1", "number of its points; a closed curve repeats its first"},
+        [](const Curve& curve) { return curve.points.size(); });
+  column({"curve_extent", "1", "lowest and highest parameters, in their units"},
+         {"curve", "parameter", "bound"}, result_.curves, [](const Curve& curve) {
+           const auto [low, high] = curve.extent();
+           return std::array{low[0], high[0], low[1], high[1]};
+         });
 }
 
 void BoundaryFile::write_corners() {
-  std::vector<std::string> kind;
-  std::vector<double> place;
-  std::vector<Complex> eigenvalue;
-  std::vector<std::int64_t> curves;
-  for (const Corner& corner : result_.corners) {
-    kind.push_back(corner_name(corner.kind));
-    place.insert(place.end(), corner.place.begin(), corner.place.end());
-    eigenvalue.insert(eigenvalue.end(), corner.s.begin(), corner.s.end());
-    curves.insert(curves.end(), corner.curves.begin(), corner.curves.end());
-  }
-  dataset({"corner_kind", "1",
-           "intersection: two curves intersect; takens_bogdanov: a curve of pairs ends on one of divergence"},
-          {"corner"}, kind);
-  dataset({"corner_parameter", "1", "place, in the parameters' units"}, {"corner", "parameter"}, place);
-  dataset({"corner_eigenvalue", "1/s", "eigenvalues of both curves"}, {"corner", "member"}, eigenvalue);
-  dataset({"corner_curve", "1", "both curves"}, {"corner", "member"}, curves);
+  const std::vector<Corner>& corners = result_.corners;
+  column({"corner_kind", "1",
+          "intersection: two curves intersect; takens_bogdanov: a curve of pairs ends on one of divergence"},
+         {"corner"}, corners, [](const Corner& corner) { return corner_name(corner.kind); });
+  column({"corner_parameter", "1", "place, in the parameters' units"}, {"corner", "parameter"}, corners,
+         &Corner::place);
+  column({"corner_eigenvalue", "1/s", "eigenvalues of both curves"}, {"corner", "member"}, corners,
+         &Corner::s);
+  column({"corner_curve", "1", "both curves"}, {"corner", "member"}, corners, &Corner::curves);
 }
 
 }  // namespace
 
-void check_boundary_names(const Scene& scene, const BoundaryOptions& options) {
-  for (const std::string& name : {options.trace.parameter, options.second}) {
-    if (std::find(boundary_names.begin(), boundary_names.end(), name) != boundary_names.end())
-      throw scene_error(scene, scene.parameters.at(name).where,
-                        "[parameters] " + name + ": a parameter of the plane cannot be called '" + name +
-                            "', the boundary file has a dataset of that name; rename it");
-  }
+void check_boundary_names(const BoundarySetup& setup) {
+  const BoundaryResult none;
+  Parameter first, second;
+  first.name = "first parameter";
+  second.name = "second parameter";
+  BoundaryFile file(setup, none, first, second);
+  require_other_names(setup.scene, {setup.options.trace.parameter, setup.options.second}, file.write(),
+                      "plane", "the boundary file");
 }
 
 std::string boundary_file(const BoundarySetup& setup, const BoundaryResult& result) {
-  return BoundaryFile(setup, result).write();
+  const Parameters& parameters = setup.scene.parameters;
+  return BoundaryFile(setup, result, parameters.at(setup.options.trace.parameter),
+                      parameters.at(setup.options.second))
+      .write()
+      .image();
 }
 
 }  // namespace eigentrail

@@ -11,6 +11,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "store/data_error_datasets.hpp"
+#include "store/labelled_datasets.hpp"
 #include "store/loci_checks.hpp"
 #include "store/loci_schema.hpp"
 #include "store/path_datasets.hpp"
@@ -41,9 +42,7 @@ void require(bool fits, const LociFile& loci, const std::string& dataset) {
 /// What the points have besides their places and eigenvalues, if the file has it.
 void read_points(const Hdf5File& file, LociFile& loci) {
   if (file.has("rounding")) {
-    require(file.shape("rounding") == Shape{loci.p.size(), loci.modes.size()}, loci, "rounding");
-    loci.rounding = Eigen::Map<const RowMajorReal>(file.read_real("rounding").data(), loci.eigenvalues.rows(),
-                                                   loci.eigenvalues.cols());
+    loci.rounding = read_matrix(file, "rounding", loci.p.size(), loci.modes.size());
   }
   if (file.has("growing_unfollowed")) {
     for (const std::int64_t number : file.read_integers("growing_unfollowed"))
@@ -101,18 +100,6 @@ void read_events(const Hdf5File& file, LociFile& loci) {
                            static_cast<int>(directions[i]), values[i], static_cast<int>(nodes[i]),
                            row(shapes, i, coordinates), row(sensitivities, i, n), row(shifts, i, n)});
   }
-}
-
-/// A dataset with one row per node and this number of columns, which may be zero.
-Matrix read_rows(const Hdf5File& file, const std::string& name, const LociFile& loci, std::size_t columns) {
-  if (columns == 0) return Matrix(static_cast<Eigen::Index>(loci.n_nodes()), 0);
-  const Shape shape = file.shape(name);
-  if (shape.size() != 2 || shape[0] != loci.n_nodes() || shape[1] != columns) {
-    throw InputError(loci.path + ": " + name + " does not fit the other datasets");
-  }
-  const std::vector<double> data = file.read_real(name);
-  return Eigen::Map<const RowMajorReal>(data.data(), static_cast<Eigen::Index>(shape[0]),
-                                        static_cast<Eigen::Index>(shape[1]));
 }
 
 /// The trimmed parameters, which a root attribute names, and their series on the steps.
@@ -216,15 +203,16 @@ LociFile loci_in(const Hdf5File& file, const std::string& path) {
   check_points_and_steps(loci);
   loci.ranges = read_stable_ranges(file, loci.modes.size());
   loci.data_errors = read_data_errors(file, loci.steps.size(), loci.modes.size(), loci.events.size());
-  loci.equilibrium = read_rows(file, "equilibrium", loci, loci.coordinates.size());
-  loci.multiplier = read_rows(file, "multiplier", loci, loci.constraints.size());
+  loci.equilibrium = read_matrix(file, "equilibrium", loci.n_nodes(), loci.coordinates.size());
+  loci.multiplier.resize(static_cast<Eigen::Index>(loci.n_nodes()), 0);
+  if (!loci.constraints.empty())
+    loci.multiplier = read_matrix(file, "multiplier", loci.n_nodes(), loci.constraints.size());
   read_trimmed(file, loci);
   loci.residual = file.read_real("residual");
   loci.condition = file.read_real("condition");
   const std::size_t expected = loci.n_nodes() * loci.modes.size();
-  if (loci.residual.size() != expected || loci.condition.size() != expected) {
+  if (loci.residual.size() != expected || loci.condition.size() != expected)
     throw InputError(path + ": residual and condition do not fit the other datasets");
-  }
   return loci;
 }
 

@@ -33,4 +33,7 @@ std::vector<std::string> trimmed_names(const ModelDescription& description);
 /// values are a dataset named after it. Stable ranges: see is_range_dataset.
 bool is_loci_dataset(const std::string& name);
 
+/// The datasets along the dimension `event`, itself included.
+std::vector<std::string> datasets_of_events();
+
 }  // namespace eigentrail

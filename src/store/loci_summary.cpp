@@ -2,60 +2,46 @@
 
 #include <limits>
 
+#include "store/labelled_datasets.hpp"
+#include "store/loci_schema.hpp"
 #include "store/provenance.hpp"
 
 namespace eigentrail {
 
 void clear_events(Hdf5Writer& file) {
-  for (const char* name :
-       {"event", "events", "event_parameter", "event_eigenvalue", "event_half_width", "event_puiseux",
-        "event_node", "event_direction", "event_value", "event_shape", "event_sensitivity", "event_shift"})
-    file.extend(name, 0, 0);
+  for (const std::string& name : datasets_of_events()) file.extend(name, 0, 0);
 }
 
 void write_events(Hdf5Writer& file, const std::vector<Event>& events, std::size_t first) {
   if (first >= events.size()) return;
-  std::vector<std::string> lines;
-  std::vector<double> parameters, half_widths;
-  std::vector<Complex> eigenvalues, puiseux;
-  std::vector<std::int64_t> numbers, nodes;
-  std::vector<std::int64_t> directions;
-  std::vector<double> values, shifts;
-  std::vector<Complex> shapes, sensitivities;
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto append = [](auto& all, const auto& row, std::size_t size) {
-    using Item = typename std::decay_t<decltype(all)>::value_type;
-    for (std::size_t i = 0; i < size; ++i)
-      all.push_back(static_cast<Eigen::Index>(i) < row.size() ? row[static_cast<Eigen::Index>(i)]
-                                                              : Item(nan));
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto write = [&](const char* name, auto field) {
+    file.write_rows(name, first, column_of(std::span(events).subspan(first), field));
   };
-  for (std::size_t i = first; i < events.size(); ++i) {
-    const Event& event = events[i];
-    numbers.push_back(static_cast<std::int64_t>(i));
-    lines.push_back(event_line(event));
-    parameters.push_back(event.p);
-    half_widths.push_back(event.kind == EventKind::veering ? event.half_width : nan);
-    eigenvalues.push_back(event.s);
-    puiseux.push_back(event.puiseux == 0.0 ? Complex(nan, nan) : event.puiseux);
-    nodes.push_back(event.node);
-    directions.push_back(event.direction);
-    values.push_back(event.value);
-    append(shapes, event.shape, file.shape("coordinate")[0]);
-    append(sensitivities, event.sensitivity, file.shape("scene_parameter")[0]);
-    append(shifts, event.shift, file.shape("scene_parameter")[0]);
-  }
-  file.write_rows("event", first, numbers);
-  file.write_rows("events", first, lines);
-  file.write_rows("event_parameter", first, parameters);
-  file.write_rows("event_eigenvalue", first, eigenvalues);
-  file.write_rows("event_half_width", first, half_widths);
-  file.write_rows("event_puiseux", first, puiseux);
-  file.write_rows("event_node", first, nodes);
-  file.write_rows("event_direction", first, directions);
-  file.write_rows("event_value", first, values);
-  file.write_rows("event_shape", first, shapes);
-  file.write_rows("event_sensitivity", first, sensitivities);
-  file.write_rows("event_shift", first, shifts);
+  // A row is as long as the dimension; where an event has no such vector, it is not known.
+  const auto row = [&file](const char* dimension, auto member) {
+    return [size = static_cast<Eigen::Index>(file.shape(dimension)[0]), member](const Event& event) {
+      auto values = event.*member;
+      const Eigen::Index known = values.size();
+      values.conservativeResize(size);
+      if (known < size) values.tail(size - known).setConstant(nan);
+      return values;
+    };
+  };
+  write("event", [number = first](const Event&) mutable { return number++; });
+  write("events", event_line);
+  write("event_parameter", &Event::p);
+  write("event_eigenvalue", &Event::s);
+  write("event_half_width",
+        [](const Event& event) { return event.kind == EventKind::veering ? event.half_width : nan; });
+  write("event_puiseux",
+        [](const Event& event) { return event.puiseux == 0.0 ? Complex(nan, nan) : event.puiseux; });
+  write("event_node", &Event::node);
+  write("event_direction", &Event::direction);
+  write("event_value", &Event::value);
+  write("event_shape", row("coordinate", &Event::shape));
+  write("event_sensitivity", row("scene_parameter", &Event::sensitivity));
+  write("event_shift", row("scene_parameter", &Event::shift));
 }
 
 void write_summary(Hdf5Writer& file, const TraceResult& result) {

@@ -89,13 +89,13 @@ struct LociWriter::Implementation {
 namespace {
 
 std::unique_ptr<OutputLock> lock_of(const std::string& path, const SaveOptions& saving) {
-  return saving.lock ? std::make_unique<OutputLock>(path) : nullptr;
+  return saving.lock && !path.empty() ? std::make_unique<OutputLock>(path) : nullptr;
 }
 
 LociTables new_tables(const std::string& path, const Scene& scene, const Model& model,
                       const TraceOptions& options, const TraceStart& start,
                       const std::vector<std::string>& motions) {
-  Hdf5Writer file = Hdf5Writer::in_memory(path);
+  Hdf5Writer file = Hdf5Writer::in_memory(path.empty() ? "loci file" : path);
   write_provenance(file, loci_format, loci_schema_version, scene, options);
   file.set_attribute("reference", start.s_ref);
   file.set_attribute("series_order", static_cast<std::int64_t>(start.order));
@@ -113,8 +113,9 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
                        const TraceOptions& options, const TraceStart& start, const TracePoint& first,
                        const SaveOptions& saving) {
   auto lock = lock_of(path, saving);
-  check_can_create(path);
+  if (!path.empty()) check_can_create(path);
   ModeMotions motions(model, first);
+  const Hdf5Turn turn;
   LociTables tables = new_tables(path, scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), model, options.parameter,
                                            static_cast<std::size_t>(model.n_coordinates()), saving,
@@ -123,26 +124,10 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
   implementation_->scene_path = scene.path;
 }
 
-LociWriter::LociWriter(const Scene& scene, const Model& model, const TraceOptions& options,
-                       const TraceStart& start, const TracePoint& first) {
-  ModeMotions motions(model, first);
-  const Hdf5Turn turn;
-  LociTables tables = new_tables("loci file", scene, model, options, start, motions.labels());
-  implementation_.reset(new Implementation{{},
-                                           nullptr,
-                                           std::move(tables),
-                                           model,
-                                           options.parameter,
-                                           static_cast<std::size_t>(model.n_coordinates()),
-                                           {},
-                                           std::move(motions)});
-  implementation_->wanted_names = options.mode_names;
-  implementation_->scene_path = scene.path;
-}
-
 LociWriter::LociWriter(const std::string& path, const Model& model, const TraceOptions& options,
                        const SavedTrace& saved, const SaveOptions& saving) {
   auto lock = lock_of(path, saving);
+  const Hdf5Turn turn;
   LociTables tables(Hdf5Writer::from_image(path, saved.image), model, options);
   implementation_.reset(new Implementation{path,
                                            std::move(lock),
@@ -323,6 +308,7 @@ void LociWriter::Implementation::save(std::string image, std::string_view state)
 }
 
 void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* status) {
+  const Hdf5Turn turn;
   const auto begin = Clock::now();
   update(checkpoint.so_far(), status);
   ArchiveWriter archive;
@@ -345,7 +331,6 @@ bool LociWriter::checkpoint(const Checkpoint& checkpoint) {
 }
 
 void LociWriter::interrupt(const Checkpoint& checkpoint) {
-  const Hdf5Turn turn;
   implementation_->save(checkpoint, "interrupted");
 }
 

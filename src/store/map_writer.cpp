@@ -1,9 +1,5 @@
 #include "eigentrail/store/map_writer.hpp"
 
-#include <algorithm>
-#include <array>
-#include <numeric>
-
 #include "core/hdf5_writer.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/provenance.hpp"
@@ -11,27 +7,23 @@
 namespace eigentrail {
 namespace {
 
-const std::array<std::string, 11> map_names = {"unstable",       "margin",    "damping_ratio", "line_status",
-                                               "line_reached",   "line_work", "axis_point",    "axis_line",
-                                               "axis_parameter", "axis_kind", "axis_frequency"};
-
 /// Writes the file. Its two dimensions have the names of the two parameters.
 class MapFile {
  public:
-  MapFile(const MapSetup& setup, const StabilityMap& map)
+  MapFile(const MapSetup& setup, const StabilityMap& map, const Parameter& first, const Parameter& second)
       : file_(Hdf5Writer::in_memory("stability map")),
         setup_(setup),
         map_(map),
-        first_(setup.trace.scene.parameters.at(setup.trace.options.parameter)),
-        second_(setup.trace.scene.parameters.at(setup.options.second)) {}
+        first_(first),
+        second_(second) {}
 
-  /// The bytes of the whole file.
-  std::string write() {
+  /// The whole file.
+  Hdf5Writer& write() {
     write_attributes();
     write_cells();
     write_lines();
     write_axis_points();
-    return file_.image();
+    return file_;
   }
 
  private:
@@ -71,81 +63,70 @@ void MapFile::write_counts() {
 }
 
 void MapFile::write_cells() {
-  std::vector<double> seconds, margin, damping_ratio;
-  std::vector<std::int64_t> unstable;
-  for (const MapLine& line : map_.lines) {
-    seconds.push_back(line.second);
-    unstable.insert(unstable.end(), line.unstable.begin(), line.unstable.end());
-    margin.insert(margin.end(), line.margin.begin(), line.margin.end());
-    damping_ratio.insert(damping_ratio.end(), line.damping_ratio.begin(), line.damping_ratio.end());
-  }
+  const std::vector<MapLine>& lines = map_.lines;
+  std::vector<double> seconds;
+  for (const MapLine& line : lines) seconds.push_back(line.second);
   write_dimension(file_, {second_.name, label_unit(second_.unit), "second parameter " + second_.name},
                   seconds);
   write_dimension(file_, {first_.name, label_unit(first_.unit), "first parameter " + first_.name},
                   map_.first);
   const std::vector<std::string> both{second_.name, first_.name};
-  write_dataset(file_, {"unstable", "1", "number of modes that grow; -1: unknown"}, both, unstable);
-  write_dataset(file_, {"margin", "1/s", "-max Re s of the followed modes"}, both, margin);
-  write_dataset(file_, {"damping_ratio", "1", "least -Re s/abs(s) of the complex pairs"}, both,
-                damping_ratio);
+  write_column(file_, {"unstable", "1", "number of modes that grow; -1: unknown"}, both, lines,
+               &MapLine::unstable);
+  write_column(file_, {"margin", "1/s", "-max Re s of the followed modes"}, both, lines, &MapLine::margin);
+  write_column(file_, {"damping_ratio", "1", "least -Re s/abs(s) of the complex pairs"}, both, lines,
+               &MapLine::damping_ratio);
 }
 
 void MapFile::write_lines() {
-  std::vector<std::string> status;
-  std::vector<double> reached;
-  std::vector<std::int64_t> work;
-  for (const MapLine& line : map_.lines) {
-    status.push_back(line.status == TraceStatus::completed ? "completed" : line.message);
-    reached.push_back(line.reached);
-    work.push_back(static_cast<std::int64_t>(line.factorizations()));
-  }
   const std::vector<std::string> along{second_.name};
-  write_dataset(file_, {"line_status", "1", "completed, or why the trace of the line ended early"}, along,
-                status);
-  write_dataset(file_,
-                {"line_reached", label_unit(first_.unit), "last value of " + first_.name + " of the trace"},
-                along, reached);
-  write_dataset(file_, {"line_work", "1", "complex LU factorizations"}, along, work);
+  write_column(file_, {"line_status", "1", "completed, or why the trace of the line ended early"}, along,
+               map_.lines, [](const MapLine& line) {
+                 return line.status == TraceStatus::completed ? std::string("completed") : line.message;
+               });
+  write_column(file_,
+               {"line_reached", label_unit(first_.unit), "last value of " + first_.name + " of the trace"},
+               along, map_.lines, &MapLine::reached);
+  write_column(file_, {"line_work", "1", "complex LU factorizations"}, along, map_.lines,
+               &MapLine::factorizations);
 }
 
 void MapFile::write_axis_points() {
   std::vector<std::int64_t> lines;
-  std::vector<double> parameters, frequencies;
-  std::vector<std::string> kinds;
+  std::vector<AxisPoint> points;
   for (std::size_t i = 0; i < map_.lines.size(); ++i) {
-    for (const AxisPoint& point : map_.lines[i].axis_points) {
-      lines.push_back(static_cast<std::int64_t>(i));
-      parameters.push_back(point.p);
-      kinds.push_back(point.kind);
-      frequencies.push_back(point.frequency);
-    }
+    const std::vector<AxisPoint>& of_line = map_.lines[i].axis_points;
+    lines.insert(lines.end(), of_line.size(), static_cast<std::int64_t>(i));
+    points.insert(points.end(), of_line.begin(), of_line.end());
   }
-  std::vector<std::int64_t> numbers(lines.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
   write_dimension(file_, {"axis_point", "1", "place on a line where an eigenvalue meets the imaginary axis"},
-                  numbers);
+                  counted(lines.size()));
   const std::vector<std::string> along{"axis_point"};
   write_dataset(file_, {"axis_line", "1", "line, counted from 0 along " + second_.name}, along, lines);
-  write_dataset(file_, {"axis_parameter", label_unit(first_.unit), "value of " + first_.name}, along,
-                parameters);
-  write_dataset(file_, {"axis_kind", "1", "what happens there"}, along, kinds);
-  write_dataset(file_, {"axis_frequency", "rad/s", "Im s there"}, along, frequencies);
+  write_column(file_, {"axis_parameter", label_unit(first_.unit), "value of " + first_.name}, along, points,
+               &AxisPoint::p);
+  write_column(file_, {"axis_kind", "1", "what happens there"}, along, points, &AxisPoint::kind);
+  write_column(file_, {"axis_frequency", "rad/s", "Im s there"}, along, points, &AxisPoint::frequency);
 }
 
 }  // namespace
 
 void check_map_names(const MapSetup& setup) {
-  const Scene& scene = setup.trace.scene;
-  for (const std::string& name : {setup.trace.options.parameter, setup.options.second}) {
-    if (std::find(map_names.begin(), map_names.end(), name) == map_names.end()) continue;
-    throw scene_error(scene, scene.parameters.at(name).where,
-                      "[parameters] " + name + ": a parameter of the map cannot be called '" + name +
-                          "', the file has a dataset of that name; rename it");
-  }
+  const StabilityMap none;
+  Parameter first, second;
+  first.name = "first parameter";
+  second.name = "second parameter";
+  MapFile file(setup, none, first, second);
+  require_other_names(setup.trace.scene, {setup.trace.options.parameter, setup.options.second}, file.write(),
+                      "map", "the file");
 }
 
 std::string map_file(const MapSetup& setup, const StabilityMap& map) {
-  return MapFile(setup, map).write();
+  const Parameters& parameters = setup.trace.scene.parameters;
+  return MapFile(setup, map, parameters.at(setup.trace.options.parameter),
+                 parameters.at(setup.options.second))
+      .write()
+      .image();
 }
 
 }  // namespace eigentrail

@@ -11,10 +11,8 @@ bool is_projection_dataset(const std::string& name) {
 void write_projection(Hdf5Writer& file, const Projection& projection) {
   if (projection.is_of_family()) {
     write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
-    using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const RowMajorReal basis = projection.basis;
     write_dataset(file, {"projection_basis", "1", "the large model's vectors are this times the coordinates"},
-                  {"freedom", "coordinate"}, std::vector<double>(basis.data(), basis.data() + basis.size()));
+                  {"freedom", "coordinate"}, row_major(projection.basis));
   }
   write_dimension(file, {"projection_place", "1", "values of the parameter whose modes span the space"},
                   projection.sampled_at);

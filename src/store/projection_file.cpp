@@ -5,18 +5,17 @@
 
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "store/labelled_datasets.hpp"
 
 namespace eigentrail {
 namespace {
 
 void write_terms(Hdf5Writer& file, const std::string& letter, const std::vector<AffineTerm<Matrix>>& terms) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   for (const AffineTerm<Matrix>& term : terms) {
-    const RowMajor rows = term.matrix;
     const std::string name = letter + "/" + term.name;
-    const auto size = static_cast<std::uint64_t>(rows.rows());
+    const auto size = static_cast<std::uint64_t>(term.matrix.rows());
     file.create_dataset({name, ElementType::real, {size, size}, false, {}});
-    file.write_rows(name, 0, std::vector<double>(rows.data(), rows.data() + rows.size()));
+    file.write_rows(name, 0, row_major(term.matrix));
   }
 }
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "store/labelled_datasets.hpp"
+
 namespace eigentrail {
 namespace {
 
 struct RangeDataset {
   const char* name;
-  ElementType type;
   bool per_end;  ///< two values per range, one for each end
   const char* units;
   const char* long_name;
@@ -20,49 +21,28 @@ constexpr const char* parameter_unit = "";  ///< stands for the unit of the trac
 constexpr const char* whole_model = "stable_whole";
 
 constexpr std::array<RangeDataset, 10> datasets{{
-    {"stable_from", ElementType::real, false, parameter_unit, "where the range begins, as the trace goes"},
-    {"stable_to", ElementType::real, false, parameter_unit, "where the range ends, as the trace goes"},
-    {"stable_kind", ElementType::text, false, "1",
+    {"stable_from", false, parameter_unit, "where the range begins, as the trace goes"},
+    {"stable_to", false, parameter_unit, "where the range ends, as the trace goes"},
+    {"stable_kind", false, "1",
      "stable: all modes decay; marginal: none grows, some stay on the imaginary axis; undecided: "
      "errors of the data leave it open"},
-    {"stable_cause", ElementType::text, true, "1",
+    {"stable_cause", true, "1",
      "what ends the range: an event, start or end of the trace, infinity, or sign change"},
-    {"stable_margin", ElementType::real, true, "1/s", "-max Re s of the followed modes"},
-    {"stable_mode", ElementType::integer, true, "1",
+    {"stable_margin", true, "1/s", "-max Re s of the followed modes"},
+    {"stable_mode", true, "1",
      "number of the mode that meets the imaginary axis or has the margin; -1: none stands out"},
-    {"stable_least_margin", ElementType::real, false, "1/s", "least margin of the range"},
-    {"stable_largest_margin", ElementType::real, false, "1/s", "largest margin of the range"},
-    {"stable_largest_at", ElementType::real, false, parameter_unit, "where the margin is largest"},
-    {whole_model, ElementType::integer, false, "1",
+    {"stable_least_margin", false, "1/s", "least margin of the range"},
+    {"stable_largest_margin", false, "1/s", "largest margin of the range"},
+    {"stable_largest_at", false, parameter_unit, "where the margin is largest"},
+    {whole_model, false, "1",
      "1: no mode of the whole model grows; 0: no followed mode grows, others are not known"},
 }};
-
-void create(Hdf5Writer& file, const std::string& unit) {
-  file.create_dataset({"range",
-                       ElementType::integer,
-                       {0},
-                       true,
-                       {{"units", "1"}, {"long_name", "range without growing modes"}}});
-  file.make_scale("range", "range");
-  for (const RangeDataset& dataset : datasets) {
-    const std::string units = dataset.units == std::string(parameter_unit) ? unit : dataset.units;
-    const Shape shape = dataset.per_end ? Shape{0, 2} : Shape{0};
-    file.create_dataset(
-        {dataset.name, dataset.type, shape, true, {{"units", units}, {"long_name", dataset.long_name}}});
-    file.attach_scale(dataset.name, "range", 0);
-    if (dataset.per_end) file.attach_scale(dataset.name, "end", 1);
-  }
-}
 
 Stability kind_of(const std::string& name) {
   for (const Stability kind : {Stability::stable, Stability::undecided}) {
     if (name == stability_name(kind)) return kind;
   }
   return Stability::marginal;
-}
-
-std::int64_t number_of(int mode) {
-  return mode < 0 ? -1 : mode + 1;
 }
 
 }  // namespace
@@ -75,37 +55,31 @@ bool is_range_dataset(const std::string& name) {
 
 void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges) {
-  create(file, file.units(parameter));
-  if (ranges.empty()) return;
-  std::vector<std::int64_t> numbers, modes, whole;
-  std::vector<double> from, to, margins, least, largest, largest_at;
-  std::vector<std::string> kinds, causes;
-  for (const StableRange& range : ranges) {
-    numbers.push_back(static_cast<std::int64_t>(numbers.size()));
-    from.push_back(range.from.p);
-    to.push_back(range.to.p);
-    kinds.push_back(stability_name(range.kind));
-    for (const RangeEnd* end : {&range.from, &range.to}) {
-      causes.push_back(end->cause);
-      margins.push_back(end->margin);
-      modes.push_back(number_of(end->mode));
-    }
-    least.push_back(range.least_margin);
-    largest.push_back(range.largest_margin);
-    largest_at.push_back(range.largest_at);
-    whole.push_back(range.whole ? 1 : 0);
-  }
-  file.write_rows("range", 0, numbers);
-  file.write_rows("stable_from", 0, from);
-  file.write_rows("stable_to", 0, to);
-  file.write_rows("stable_kind", 0, kinds);
-  file.write_rows("stable_cause", 0, causes);
-  file.write_rows("stable_margin", 0, margins);
-  file.write_rows("stable_mode", 0, modes);
-  file.write_rows("stable_least_margin", 0, least);
-  file.write_rows("stable_largest_margin", 0, largest);
-  file.write_rows("stable_largest_at", 0, largest_at);
-  file.write_rows(whole_model, 0, whole);
+  using Range = StableRange;
+  write_dimension(file, {"range", "1", "range without growing modes"}, counted(ranges.size()));
+  const auto* dataset = datasets.begin();
+  const auto write = [&](auto field) {
+    std::vector<std::string> dimensions{"range"};
+    if (dataset->per_end) dimensions.emplace_back("end");
+    const bool of_parameter = dataset->units == std::string(parameter_unit);
+    write_column(file,
+                 {dataset->name, of_parameter ? file.units(parameter) : dataset->units, dataset->long_name},
+                 dimensions, ranges, field);
+    ++dataset;
+  };
+  const auto ends = [](auto value) {
+    return [value](const Range& range) { return std::array{value(range.from), value(range.to)}; };
+  };
+  write([](const Range& range) { return range.from.p; });
+  write([](const Range& range) { return range.to.p; });
+  write([](const Range& range) { return stability_name(range.kind); });
+  write(ends([](const RangeEnd& end) { return end.cause; }));
+  write(ends([](const RangeEnd& end) { return end.margin; }));
+  write(ends([](const RangeEnd& end) { return end.mode < 0 ? -1 : end.mode + 1; }));
+  write(&Range::least_margin);
+  write(&Range::largest_margin);
+  write(&Range::largest_at);
+  write(&Range::whole);
 }
 
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes) {

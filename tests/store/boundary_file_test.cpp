@@ -114,7 +114,7 @@ TEST_F(BoundaryFileTest, ParametersNamedLikeADatasetAreRefused) {
     BoundaryRequest request = square_window();
     request.second = name;
     const BoundarySetup setup = prepare_boundary(parse_scene(scene, "test.toml"), request);
-    EXPECT_THROW(check_boundary_names(setup.scene, setup.options), InputError) << name;
+    EXPECT_THROW(check_boundary_names(setup), InputError) << name;
   }
 }
 

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
-#include "eigentrail/accuracy/trace_in_memory.hpp"
+#include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/model/function_family.hpp"
 #include "eigentrail/projection/project.hpp"
@@ -89,8 +88,7 @@ Outcome run_trace(const Scene& scene, const Options& options, const std::optiona
     outcome.remarks = remarks_on(setup.scene, *setup.model);
     check_parameter_name(setup.scene, setup.options.parameter);
     project_if_large(setup.model, setup.options);
-    setup.options.threads =
-        threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    setup.options.threads = static_cast<int>(Threads(threads).size());
     TracedFile traced = trace_in_memory(setup, [&](const Checkpoint& checkpoint, int points) {
       const auto& [from, to] = std::pair(setup.options.from, setup.options.to);
       return watch((checkpoint.so_far().reached - from) / (to - from), points);
@@ -111,7 +109,7 @@ Outcome run_boundary(const Scene& scene, const std::string& second, double from,
     const BoundarySetup setup = prepare_boundary(
         scene, {second, from, to, parameter, first_from, first_to, tolerance, damping_ratio, lines});
     outcome.remarks = remarks_on(setup.scene, *setup.model);
-    check_boundary_names(setup.scene, setup.options);
+    check_boundary_names(setup);
     const BoundaryResult result = find_boundaries(
         *setup.model, setup.options, [&](double share, int points) { watch.require(share, points); });
     if (result.status != BoundaryStatus::completed) outcome.message = result.message;

@@ -42,13 +42,10 @@ class LociWriter {
   /// Begins a file. The first checkpoint writes it to the disk. The first point of the trace, `first`,
   /// defines the directions of motion for the names of modes; it must be appended with `append` as well. The
   /// file is saved every `interval` seconds, or less often if saving would take more than a twentieth of the
-  /// time. Throws InputError if the file cannot be created or another process writes it.
+  /// time. Throws InputError if the file cannot be created or another process writes it. Without a `path` the
+  /// file stays in memory: checkpoints save nothing, and `bytes` gives it.
   LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
              const TraceStart& start, const TracePoint& first, const SaveOptions& saving = {});
-
-  /// Begins a file that stays in memory: checkpoints save nothing, and `bytes` gives it.
-  LociWriter(const Scene& scene, const Model& model, const TraceOptions& options, const TraceStart& start,
-             const TracePoint& first);
 
   /// Continues the file that `saved` was read from, and replaces it. Throws InputError if it does not fit the
   /// model or another process writes it.

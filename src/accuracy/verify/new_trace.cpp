@@ -7,7 +7,7 @@
 #include "accuracy/verify/file_differences.hpp"
 #include "accuracy/verify/spectrum_errors.hpp"
 #include "accuracy/verify/stored_scene.hpp"
-#include "eigentrail/accuracy/trace_in_memory.hpp"
+#include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
 

@@ -1,8 +1,9 @@
 // Saving the state of a trace between two points, and restoring it.
 //
 // The state is everything that changes from one point to the next. Models and options are not part of it.
-// The functions `fields` below list the members that are saved. They decompose each struct by a structured
-// binding: if a member is added to a struct and not listed here, the code does not compile.
+// Of most structs all members are saved; the functions `fields` below list those of others, which they
+// decompose by a structured binding. If a member is added to a struct, the code does not compile until it is
+// counted or listed here.
 #include <algorithm>
 
 #include "continuation/archived_parts.hpp"
@@ -24,25 +25,9 @@ static void fields(Self& self, Visit& visit) {
   visit(status, chart, part, is_real, Z, Lambda, W, backward_error, condition, rounding);
 }
 
-template <SameAs<Track::Departure> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [distance, roots] = self;
-  visit(distance, roots);
-}
-
-template <SameAs<Track> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable,
-         unproven, passed, met, hidden_within] = self;
-  visit(pair, series, functions, roots, modes, arriving, departure, told_apart, lineage, inseparable,
-        unproven, passed, met, hidden_within);
-}
-
-template <SameAs<Linearization> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [M, C, K, A] = self;
-  visit(M, C, K, A);
-}
+Members<2> archived(const Track::Departure*);
+Members<14> archived(const Track*);
+Members<4> archived(const Linearization*);
 
 template <SameAs<TangentBasis> Self, class Visit>
 static void fields(Self& self, Visit& visit) {
@@ -50,64 +35,15 @@ static void fields(Self& self, Visit& visit) {
   visit(T, is_identity, left);
 }
 
-template <SameAs<ReducedPencil> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [M, C, K, parts, copies, complex_sign] = self;
-  visit(M, C, K, parts, copies, complex_sign);
-}
-
-template <SameAs<PathNode> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [p, path, tracks, linearization, basis, pencil] = self;
-  visit(p, path, tracks, linearization, basis, pencil);
-}
-
-template <SameAs<PathPlane> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [x, p, u] = self;
-  visit(x, p, u);
-}
-
-template <SameAs<EventOfCopy> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [shape, sensitivity, shift] = self;
-  visit(shape, sensitivity, shift);
-}
-
-template <SameAs<Event> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
-         node, copies] = self;
-  visit(kind, p, s, modes, half_width, puiseux, direction, value, shape, sensitivity, shift, retrackings,
-        node, copies);
-}
-
-template <SameAs<Rejections> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [inaccurate, no_equilibrium, mode_lost, mismatch, merged, uncertified] = self;
-  visit(inaccurate, no_equilibrium, mode_lost, mismatch, merged, uncertified);
-}
-
-template <SameAs<Regroupings> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [joined, parted, charts, repaired, planes] = self;
-  visit(joined, parted, charts, repaired, planes);
-}
-
-template <SameAs<TraceResult> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [status, message, notes, nodes, n_modes, n_columns, n_available, n_infinite, n_independent, order,
-         reached, s_ref, events, mode_steps, certified_steps, rejections, regroupings, counts, seconds] =
-      self;
-  visit(status, message, notes, nodes, n_modes, n_columns, n_available, n_infinite, n_independent, order,
-        reached, s_ref, events, mode_steps, certified_steps, rejections, regroupings, counts, seconds);
-}
-
-template <SameAs<PathFrame::BranchPoint> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [coordinate, p] = self;
-  visit(coordinate, p);
-}
+Members<6> archived(const ReducedPencil*);
+Members<6> archived(const PathNode*);
+Members<3> archived(const PathPlane*);
+Members<3> archived(const EventOfCopy*);
+Members<14> archived(const Event*);
+Members<6> archived(const Rejections*);
+Members<5> archived(const Regroupings*);
+Members<19> archived(const TraceResult*);
+Members<2> archived(const PathFrame::BranchPoint*);
 
 /// The range is not saved: the options give it.
 template <SameAs<PathFrame> Self, class Visit>
@@ -117,23 +53,9 @@ static void fields(Self& self, Visit& visit) {
   visit(plane, direction, largest_position, scaled_at, largest_unknowns, rounding, bridge, branch_point);
 }
 
-template <SameAs<TriedPoint> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [h, tracks, equations] = self;
-  visit(h, tracks, equations);
-}
-
-template <SameAs<StepOrigin> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [node, previous, last_step, tried, lineages] = self;
-  visit(node, previous, last_step, tried, lineages);
-}
-
-template <SameAs<TraceSettings> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [order, s_ref, s_max, route, follows_all, leaves_out, joins_pairs] = self;
-  visit(order, s_ref, s_max, route, follows_all, leaves_out, joins_pairs);
-}
+Members<3> archived(const TriedPoint*);
+Members<5> archived(const StepOrigin*);
+Members<7> archived(const TraceSettings*);
 
 /// The other path is not saved: it is used, or no longer needed, before the next state is saved.
 template <SameAs<BranchPassage> Self, class Visit>
@@ -142,43 +64,12 @@ static void fields(Self& self, Visit& visit) {
   visit(passed, tries);
 }
 
-template <SameAs<StepMemory> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [joins, ended, lengthened, towards_pole, retries, longest_step, turned_step] = self;
-  visit(joins, ended, lengthened, towards_pole, retries, longest_step, turned_step);
-}
-
-template <SameAs<ModeNumbers> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [count, partners] = self;
-  visit(count, partners);
-}
-
-template <SameAs<ModeCopies> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [numbers] = self;
-  visit(numbers);
-}
-
-template <SameAs<EndedTrack> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [track, looks] = self;
-  visit(track, looks);
-}
-
-template <SameAs<LeastKnown> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [error, mode, p] = self;
-  visit(error, mode, p);
-}
-
-template <SameAs<TraceState> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [settings, result, control, origin, frame, branches, numbers, copies, histories, events, dismissed,
-         steps, ended, least_known] = self;
-  visit(settings, result, control, origin, frame, branches, numbers, copies, histories, events, dismissed,
-        steps, ended, least_known);
-}
+Members<7> archived(const StepMemory*);
+Members<2> archived(const ModeNumbers*);
+Members<1> archived(const ModeCopies*);
+Members<2> archived(const EndedTrack*);
+Members<3> archived(const LeastKnown*);
+Members<14> archived(const TraceState*);
 
 std::string save_state(const TraceState& state) {
   ArchiveWriter archive;

@@ -1,0 +1,122 @@
+#include "shared_job.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "eigentrail/core/errors.hpp"
+#include "eigentrail/store/unfinished_run.hpp"
+#include "scene_arguments.hpp"
+
+namespace eigentrail::app {
+namespace {
+
+/// Whether --resume has nothing to do: the output, or this part of it, is complete, which is then said.
+/// Throws InputError if it is of another run.
+bool has_ended(const SharedJob& job, const OutputChoice& output, const Team& team) {
+  std::error_code not_found;
+  if (!output.resume || !std::filesystem::exists(output.path, not_found) || is_unfinished(output.path))
+    return false;
+  if (output.part) {
+    require_part(output.path, job.run, *output.part);
+  } else if (!job.is_whole) {
+    require_run(output.path, job.run);
+  } else if (!job.is_whole()) {
+    return false;
+  }
+  if (team.leads() && !output.quiet)
+    std::printf("%s: the run has come to its end already\n", output.path.c_str());
+  return true;
+}
+
+/// What the run with this output, or this part of it, has left. Says on the process that leads where it was
+/// computed with another kernel of BLAS.
+std::unique_ptr<UnfinishedRun> unfinished_run(OutputChoice& output, SharedRun run, const Team& team) {
+  if (const auto& part = output.part)
+    run.settings.emplace_back("--part", std::to_string(part->number) + "/" + std::to_string(part->count));
+  const Before before = output.force ? Before::discard : output.resume ? Before::resume : Before::refuse;
+  auto unfinished = std::make_unique<UnfinishedRun>(output.path, run, before);
+  output.force = output.force || unfinished->goes_on();
+  if (team.leads() && !unfinished->other_kernel().empty())
+    warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
+         "); the last digits differ from those of a run on one machine");
+  return unfinished;
+}
+
+/// Ends a run whose pieces have all been computed: `write` writes the output and returns the exit code. What
+/// was saved of the run stays if the output cannot be written, and goes if there is none for this input.
+int end_run(UnfinishedRun& unfinished, const std::function<int()>& write) try {
+  const int code = write();
+  unfinished.end();
+  return code;
+} catch (const InputError&) {
+  unfinished.end();
+  throw;
+}
+
+/// Writes a part with a note on what to do next.
+int finish_part(const OutputChoice& output, const SharedRun& run, std::vector<std::string> pieces) {
+  const Part& part = *output.part;
+  const std::size_t computed = pieces.size();
+  write_part({output.path, run, part, std::move(pieces)}, output.existing());
+  if (!output.quiet)
+    std::printf("wrote %s: part %d of %d, %zu of %zu pieces; eigentrail merge joins the parts\n",
+                output.path.c_str(), part.number, part.count, computed, run.n_pieces);
+  return done;
+}
+
+/// What is saved of a run that writes an output, which is checked; null for others.
+std::unique_ptr<UnfinishedRun> saved_pieces(const SharedJob& job, OutputChoice& output, const Team& team) {
+  if (!job.writes) return nullptr;
+  auto unfinished = unfinished_run(output, job.run, team);
+  if (!team.leads()) return unfinished;
+  job.check_more_files();
+  check_new_output(output.path, output.force,
+                   output.part ? hdf5_format(part_format, "part of a run") : job.format);
+  if (job.leaves_more_files) unfinished->begin();
+  return unfinished;
+}
+
+}  // namespace
+
+int carry_out(const SharedJob& job, OutputChoice& output, Team& team) {
+  if (job.writes && has_ended(job, output, team)) return done;
+  const auto unfinished = saved_pieces(job, output, team);
+  std::unique_ptr<Workers> workers = team.workers(job.jobs);
+  if (unfinished) workers = std::make_unique<SavingWorkers>(std::move(workers), *unfinished);
+  const std::vector<std::size_t> numbers = output.part.value_or(Part{}).pieces(job.run.n_pieces);
+  ProgressBar progress(output.quiet);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::string> pieces = job.compute(numbers, *workers, progress);
+  progress.finish();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto finish = [&]() -> int {
+    if (!output.part) return job.finish(pieces, *workers, seconds);
+    return team.leads() ? finish_part(output, job.run, std::move(pieces)) : done;
+  };
+  return unfinished && team.leads() ? end_run(*unfinished, finish) : finish();
+}
+
+int finish_joined(const SharedJob& job, const std::vector<std::string>& pieces, const OutputChoice& output,
+                  Team& team) {
+  if (team.leads()) check_new_output(output.path, output.force, job.format);
+  const auto workers = team.workers(job.jobs);
+  return job.finish(pieces, *workers, std::nullopt);
+}
+
+void write_result(const OutputChoice& output, const SharedRun& run, const std::string& bytes,
+                  const std::function<void()>& print) {
+  write_durably(output.path, {bytes, run_mark(run)}, output.existing());
+  if (output.quiet) return;
+  print();
+  std::printf("wrote %s\n", output.path.c_str());
+}
+
+double number_of(const SharedRun& run, const std::string& label) {
+  return std::strtod(run.setting(label).value_or("nan").c_str(), nullptr);
+}
+
+}  // namespace eigentrail::app
