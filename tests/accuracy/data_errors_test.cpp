@@ -127,7 +127,9 @@ TEST_P(StatedErrors, HoldAtThousandRandomPlacesAndAreNotMuchLarger) {
   RecordProperty("within", std::to_string(found.within));
   std::printf("worst true/stated %.2f, within %.4f, median stated/true %.1f\n", found.worst, found.within,
               found.median);
-  if (is_smooth(kind)) EXPECT_LT(found.worst, 2.0);
+  if (is_smooth(kind)) {
+    EXPECT_LT(found.worst, 2.0);
+  }
   EXPECT_GE(found.within, is_smooth(kind) ? 0.999 : 0.98);
   EXPECT_LT(found.median, 30.0);
 }
