@@ -193,28 +193,27 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
     return fitted_denominator(window.nodes, piece.reduced, d, n_poles)
         .value_or(piece.interpolant.denominator());
   };
-  const auto values_of = [&](int d) {
-    if (n == 2 && d < 1) return nearest_samples();
-    d = std::max(n_poles, d);
-    const RationalInterpolant interpolant(window.nodes, d, denominator_of(d));
+  const auto values_with = [&](int d, const Denominator& denominator) {
+    const RationalInterpolant interpolant(window.nodes, d, denominator);
     Matrix columns(n, places_in_gap.size());
     for (std::size_t i = 0; i < places_in_gap.size(); ++i)
       columns.col(static_cast<Eigen::Index>(i)) = interpolant.values(from + places_in_gap[i] * length);
     return columns;
   };
+  const auto values_of = [&](int d) {
+    if (n == 2 && d < 1) return nearest_samples();
+    d = std::max(n_poles, d);
+    return values_with(d, denominator_of(d));
+  };
   for (int i = 0; i < 4; ++i) values[static_cast<std::size_t>(i)] = values_of(top - i);
   const Matrix used = values_of(degree);
   result.weights = used.cwiseAbs().rowwise().maxCoeff();
   result.amplification = std::max(1.0, used.colwise().norm().maxCoeff());
-  result.rivals.resize(n, 0);
-  for (const int rival : piece.rivals) {
-    const RationalInterpolant interpolant(window.nodes, std::min<int>(rival, static_cast<int>(n) - 1));
-    Matrix columns(n, result.rivals.cols() + static_cast<Eigen::Index>(places_in_gap.size()));
-    columns.leftCols(result.rivals.cols()) = result.rivals;
-    for (std::size_t i = 0; i < places_in_gap.size(); ++i)
-      columns.col(result.rivals.cols() + static_cast<Eigen::Index>(i)) =
-          interpolant.values(from + places_in_gap[i] * length) - used.col(static_cast<Eigen::Index>(i));
-    result.rivals = std::move(columns);
+  result.rivals.resize(n, static_cast<Eigen::Index>(piece.rivals.size()) * used.cols());
+  for (std::size_t i = 0; i < piece.rivals.size(); ++i) {
+    const int rival = std::min(piece.rivals[i], static_cast<int>(n) - 1);
+    result.rivals.middleCols(static_cast<Eigen::Index>(i) * used.cols(), used.cols()) =
+        values_with(rival, {}) - used;
   }
   const auto reduced = piece.reduced.middleCols(window.offset, n);
   std::array<double, 3> norms{};
