@@ -155,9 +155,12 @@ struct Estimators {
   Matrix leave_one_out;                     ///< what is missed at the ends of the gap
   Matrix nearby;                            ///< and at the samples near it
   std::array<double, 3> share = {1, 0, 0};  ///< factor of each difference
-  Matrix rivals;                            ///< what interpolants of nearly as good degrees differ by
-  double amplification = 1.0;               ///< of errors of the samples that are not smooth
-  Vector weights;                           ///< largest magnitude of each basis function
+  Matrix rival;  ///< what the interpolant of the modest degree differs by, extrapolated
+  /// What the lines through the two samples before the gap and behind it differ by: of a function with a kink
+  /// in the gap, the smaller difference is true (subcell resolution: Harten, J. Comput. Phys. 83, 1989).
+  Matrix before, behind;
+  double amplification = 1.0;  ///< of errors of the samples that are not smooth
+  Vector weights;              ///< largest magnitude of each basis function
 };
 
 constexpr std::array<double, 5> places_in_gap{0.1, 0.3, 0.5, 0.7, 0.9};
@@ -171,6 +174,45 @@ Matrix nearest_samples() {
   return columns;
 }
 
+/// How smooth the samples beside a gap are.
+struct Smoothness {
+  /// The degree, with as many poles, that predicts them best if each degree has to be worth it: where no
+  /// degree is much better than the others, or one is by chance, it may be as close to the truth.
+  int modest = 0;
+  double gain = 0.0;  ///< error of the interpolant that is used there, as a share of that of degree 1
+};
+
+Smoothness smoothness_at(const SamplePiece& piece, std::size_t gap, const SampleErrorOptions& options) {
+  const int degree = piece.interpolant.degree();
+  Smoothness found{degree};
+  if (piece.polynomials.norms.size() == 0) return found;
+  const std::size_t begin = std::max<std::size_t>(gap, 2) - 1;
+  const std::size_t count = std::min(gap + 3, piece.size() - 1) - begin;
+  const Vector alike = piece.alike.over(begin, count);
+  double least = INFINITY, factor = 1.0;
+  for (Eigen::Index i = 0; i < alike.size(); ++i, factor *= options.worth_a_degree) {
+    const double expected = factor * credible_error(alike, i);
+    if (expected < least) found.modest = piece.alike.lowest + static_cast<int>(i);
+    least = std::min(least, expected);
+  }
+  const double of_lines = piece.polynomials.over(begin, count)[0];
+  if (of_lines > 0.0) found.gain = credible_error(alike, degree - piece.alike.lowest) / of_lines;
+  return found;
+}
+
+/// The line through the samples `first` and `first` + 1 at places of a gap, a place per column.
+Matrix line_through(const std::vector<double>& nodes, std::size_t first, std::size_t gap) {
+  const auto row = static_cast<Eigen::Index>(first);
+  Matrix columns = Matrix::Zero(static_cast<Eigen::Index>(nodes.size()), places_in_gap.size());
+  for (std::size_t i = 0; i < places_in_gap.size(); ++i) {
+    const double x = nodes[gap] + places_in_gap[i] * (nodes[gap + 1] - nodes[gap]);
+    const double share = (x - nodes[first]) / (nodes[first + 1] - nodes[first]);
+    columns(row, static_cast<Eigen::Index>(i)) = 1.0 - share;
+    columns(row + 1, static_cast<Eigen::Index>(i)) = share;
+  }
+  return columns;
+}
+
 Estimators estimators(const SamplePiece& piece, const Window& window, const SampleErrorOptions& options) {
   const auto n = static_cast<Eigen::Index>(window.nodes.size());
   const int degree = std::min(piece.interpolant.degree(), static_cast<int>(n) - 1);
@@ -181,7 +223,7 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
     for (Matrix& difference : result.differences) difference.resize(1, 0);
     result.leave_one_out.resize(1, 0);
     result.nearby.resize(1, 0);
-    result.rivals.resize(1, 0);
+    result.rival.resize(1, 0);
     result.weights = Vector::Ones(1);
     return result;
   }
@@ -209,11 +251,15 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   const Matrix used = values_of(degree);
   result.weights = used.cwiseAbs().rowwise().maxCoeff();
   result.amplification = std::max(1.0, used.colwise().norm().maxCoeff());
-  result.rivals.resize(n, static_cast<Eigen::Index>(piece.rivals.size()) * used.cols());
-  for (std::size_t i = 0; i < piece.rivals.size(); ++i) {
-    const int rival = std::min(piece.rivals[i], static_cast<int>(n) - 1);
-    result.rivals.middleCols(static_cast<Eigen::Index>(i) * used.cols(), used.cols()) =
-        values_with(rival, {}) - used;
+  const bool at_end = window.gap == 0 || window.gap + 2 == window.nodes.size();
+  const double one_sided = at_end ? options.at_an_end : 1.0;
+  const Smoothness smoothness =
+      smoothness_at(piece, window.gap + static_cast<std::size_t>(window.offset), options);
+  const double slow = one_sided * options.safety / (1.0 - std::min(options.slowest, smoothness.gain));
+  result.rival = slow * (values_of(smoothness.modest) - used);
+  if (smoothness.gain > options.may_have_kinks && window.gap > 0 && window.gap + 3 <= window.nodes.size()) {
+    result.before = options.beside_a_kink * (line_through(window.nodes, window.gap - 1, window.gap) - used);
+    result.behind = options.beside_a_kink * (line_through(window.nodes, window.gap + 1, window.gap) - used);
   }
   const auto reduced = piece.reduced.middleCols(window.offset, n);
   std::array<double, 3> norms{};
@@ -228,10 +274,8 @@ Estimators estimators(const SamplePiece& piece, const Window& window, const Samp
   result.share = {extrapolated, extrapolated * rate,
                   extrapolated * ratio(norms[0], norms[2], slowest * slowest)};
   // With equidistant nodes a missing one lets the error grow by about pi (d + 1) / 2 + 0.8: the square of
-  // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2. At an end of the range the function may be less smooth than the
-  // degree supposes.
-  const bool at_end = window.gap == 0 || window.gap + 2 == window.nodes.size();
-  const double factor = options.leave_one_out / (0.5 * std::numbers::pi * ((at_end ? 1 : degree) + 1) + 0.8);
+  // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2.
+  const double factor = one_sided * options.leave_one_out / (0.5 * std::numbers::pi * (degree + 1) + 0.8);
   const auto missed_at = [&](std::size_t begin, std::size_t end) {
     begin = std::max<std::size_t>(begin, 1);
     end = std::min(end, window.nodes.size() - 1);
@@ -328,9 +372,10 @@ double InterpolationErrors::shape(double x) const {
   const double largest =
       interpolant.error_factor(place_of_largest_error(gap, values_[gap], values_[gap + 1]));
   const double share = std::min(1.0, interpolant.error_factor(x) / largest);
-  // Nothing beyond an end of the range tells how the error falls to zero there: it may be that of a root.
-  const bool at_end = gap == 0 ? x < 0.5 * (values_[0] + values_[1])
-                               : gap + 2 == values_.size() && x > 0.5 * (values_[gap] + values_[gap + 1]);
+  // Nothing beyond an end tells how the error falls to zero there: it may be that of a root.
+  const std::vector<double>& nodes = interpolant.nodes();
+  const bool at_end =
+      x < 0.5 * (nodes[0] + nodes[1]) || x > 0.5 * (nodes[nodes.size() - 2] + nodes[nodes.size() - 1]);
   return at_end && share > 0.0 ? 1.0 : share;
 }
 
@@ -392,7 +437,14 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
   };
   for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
   raise(estimators_here.leave_one_out, 1.0);
-  raise(estimators_here.rivals, options_.safety / (1.0 - std::min(options_.slowest, piece.gain)));
+  raise(estimators_here.rival, 1.0);
+  if (estimators_here.before.cols() > 0) {
+    const ComplexMatrix before = shares * estimators_here.before, behind = shares * estimators_here.behind;
+    const Matrix least = before.cwiseAbs().cwiseMin(behind.cwiseAbs());
+    const Matrix least_growth = before.real().cwiseAbs().cwiseMin(behind.real().cwiseAbs());
+    smooth = smooth.cwiseMax(least.rowwise().maxCoeff());
+    smooth_growth = smooth_growth.cwiseMax(least_growth.rowwise().maxCoeff());
+  }
   const Matrix& nearby = estimators_here.nearby;
   const bool sees_nearby =
       nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby;

@@ -11,10 +11,6 @@ namespace {
 constexpr double as_good = 1.1;
 /// Poles are used if they bring the leave-one-out error down to this share: noise can lower it a little.
 constexpr double worth_poles = 0.1;
-/// Degrees whose leave-one-out error is within this factor of what is credible of the one that is taken may
-/// be as close to the truth: where the matrices are not smooth, no degree is much better than the others.
-constexpr double about_as_good = 2.0;
-
 /// Factors for rows and columns by which the mean magnitudes of the entries of all matrices come to about
 /// one: states have units of their own.
 struct EntryScale {
@@ -83,14 +79,11 @@ Matrix reduce(const SampledData& data, std::size_t first, std::size_t count) {
   return reduced;
 }
 
-/// An interpolant as it is chosen, and the error with which it misses samples that are left out.
+/// An interpolant as it is chosen.
 struct Choice {
   int degree = 0;
   Denominator denominator = {};
   std::vector<Denominator> without_one = {};
-  double error = INFINITY;
-  std::vector<int> rivals = {};  ///< see SamplePiece
-  double gain = 0.0;             ///< see SamplePiece
 };
 
 std::vector<double> without(std::vector<double> nodes, std::size_t left_out) {
@@ -105,86 +98,109 @@ Matrix without(const Matrix& columns, std::size_t left_out) {
   return result;
 }
 
-/// Denominators for all samples and without each of them; the error stays infinite if one cannot be fitted.
-Choice with_poles(const std::vector<double>& nodes, const Matrix& reduced, int degree, int n_poles) {
+/// Denominators for all samples and without each of them; nothing if one cannot be fitted.
+std::optional<Choice> with_poles(const std::vector<double>& nodes, const Matrix& reduced, int degree,
+                                 int n_poles) {
   Choice choice{degree};
   if (n_poles == 0) {
     choice.without_one.assign(nodes.size(), {});
     return choice;
   }
   const auto all = fitted_denominator(nodes, reduced, degree, n_poles);
-  if (!all) return choice;
+  if (!all) return std::nullopt;
   choice.denominator = *all;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto others = fitted_denominator(without(nodes, i), without(reduced, i), degree, n_poles);
-    if (!others) return choice;
+    if (!others) return std::nullopt;
     choice.without_one.push_back(*others);
   }
   return choice;
 }
 
-/// For each degree from `n_poles` or 1, the error with which the interpolant of all samples but one misses
-/// that one, in the norm of the reduced samples, over all samples but the first and the last. Poles are
-/// fitted without that one, too. At least four nodes.
-std::vector<Choice> choices(const std::vector<double>& nodes, const Matrix& reduced, int n_poles) {
-  const int highest = std::max(1, std::min(static_cast<int>(nodes.size()) - 3, highest_degree));
-  std::vector<Choice> result;
-  for (int degree = std::max(1, n_poles); degree <= highest; ++degree) {
-    Choice choice = with_poles(nodes, reduced, degree, n_poles);
-    if (choice.without_one.size() == nodes.size()) {
-      double squares = 0.0;
-      for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
-        squares += (reduced * leave_one_out(nodes, degree, i, choice.without_one[i])).squaredNorm();
-      choice.error = std::sqrt(squares);
+/// Interpolants of successive degrees, from `n_poles` or 1 on.
+struct Choices {
+  std::vector<Choice> list;
+  LeftOutErrors left_out;
+};
+
+/// The highest degree that is tried with so many samples.
+int highest_tried(std::size_t samples) {
+  return std::max(1, std::min(static_cast<int>(samples) - 3, highest_degree));
+}
+
+/// Poles are fitted without the sample that is left out, too. At least four nodes.
+Choices choices(const std::vector<double>& nodes, const Matrix& reduced, int n_poles) {
+  const int lowest = std::max(1, n_poles);
+  const int highest = highest_tried(nodes.size());
+  Choices all{{}, {lowest, Matrix::Zero(highest - lowest + 1, static_cast<Eigen::Index>(nodes.size()))}};
+  for (int degree = lowest; degree <= highest; ++degree) {
+    auto norms = all.left_out.norms.row(degree - lowest);
+    std::optional<Choice> choice = with_poles(nodes, reduced, degree, n_poles);
+    for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+      norms[static_cast<Eigen::Index>(i)] =
+          choice ? (reduced * leave_one_out(nodes, degree, i, choice->without_one[i])).norm() : INFINITY;
     }
-    result.push_back(std::move(choice));
+    all.list.push_back(std::move(choice).value_or(Choice{degree}));
   }
-  return result;
+  return all;
 }
 
-/// The error of a choice that may be small by chance: that of the degree above or below, if both are larger.
-double credible_error(const std::vector<Choice>& all, std::size_t i) {
-  double beside = INFINITY;
-  if (i > 0) beside = all[i - 1].error;
-  if (i + 1 < all.size()) beside = std::min(beside, all[i + 1].error);
-  return std::isfinite(beside) ? std::max(all[i].error, beside) : all[i].error;
-}
-
-/// The smallest degree whose error is about the least one, with its credible error.
+/// The interpolant of a list that is taken, with its credible error.
 struct Best {
   Choice choice;
+  LeftOutErrors left_out;
   double credible = INFINITY;
 };
 
-Best best_degree(const std::vector<Choice>& all) {
-  double least = INFINITY;
-  for (const Choice& choice : all) least = std::min(least, choice.error);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].error <= as_good * least) return {all[i], credible_error(all, i)};
+/// The smallest degree whose error is about the least one.
+Best best_degree(Choices all) {
+  const Vector errors = all.left_out.norms.rowwise().norm();
+  const double least = errors.minCoeff<Eigen::PropagateNumbers>();
+  for (Eigen::Index i = 0; i < errors.size(); ++i) {
+    if (errors[i] <= as_good * least)
+      return {std::move(all.list[static_cast<std::size_t>(i)]), std::move(all.left_out),
+              credible_error(errors, i)};
   }
   return {};
 }
 
-Choice best_choice(const std::vector<double>& nodes, const Matrix& reduced) {
+SamplePiece best_piece(std::size_t first, const std::vector<double>& nodes, Matrix reduced) {
   const int count = static_cast<int>(nodes.size());
-  if (count < 4) return {std::max(0, std::min(1, count - 1))};
-  const std::vector<Choice> polynomials = choices(nodes, reduced, 0);
-  Best best = best_degree(polynomials);
+  if (count < 4) {
+    const int degree = std::max(0, std::min(1, count - 1));
+    return {first, RationalInterpolant(nodes, degree), std::move(reduced)};
+  }
+  Best best = best_degree(choices(nodes, reduced, 0));
   best.choice.without_one.clear();
+  LeftOutErrors polynomials = best.left_out;
   const bool few = nodes.size() <= most_samples_with_poles && reduced.rows() > 0;
-  for (int n_poles = 1; few && n_poles <= most_poles; ++n_poles) {
+  const int poles = few ? std::min(most_poles, highest_tried(nodes.size())) : 0;
+  for (int n_poles = 1; n_poles <= poles; ++n_poles) {
     Best other = best_degree(choices(nodes, reduced, n_poles));
     if (other.credible < worth_poles * best.credible) best = std::move(other);
   }
-  for (const Choice& other : polynomials) {
-    if (other.degree != best.choice.degree && other.error <= about_as_good * best.credible)
-      best.choice.rivals.push_back(other.degree);
-  }
-  if (polynomials.front().error > 0.0) best.choice.gain = best.credible / polynomials.front().error;
-  return best.choice;
+  return {first,
+          RationalInterpolant(nodes, best.choice.degree, std::move(best.choice.denominator)),
+          std::move(reduced),
+          std::move(best.choice.without_one),
+          std::move(polynomials),
+          std::move(best.left_out)};
 }
 
 }  // namespace
+
+Vector LeftOutErrors::over(std::size_t first, std::size_t count) const {
+  return norms.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count))
+      .rowwise()
+      .norm();
+}
+
+double credible_error(const Vector& errors, Eigen::Index i) {
+  double beside = INFINITY;
+  if (i > 0) beside = errors[i - 1];
+  if (i + 1 < errors.size()) beside = std::min(beside, errors[i + 1]);
+  return std::isfinite(beside) ? std::max(errors[i], beside) : errors[i];
+}
 
 Vector leave_one_out(const std::vector<double>& nodes, int degree, std::size_t left_out,
                      const Denominator& denominator) {
@@ -209,11 +225,12 @@ std::vector<SamplePiece> interpolate_samples(const SampledData& data, const std:
     const std::vector<double> nodes(values.begin() + static_cast<std::ptrdiff_t>(first),
                                     values.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     Matrix reduced = reduce(data, first, nodes.size());
-    const int highest = static_cast<int>(nodes.size()) - 1;
-    Choice chosen = degree ? Choice{std::min(*degree, highest)} : best_choice(nodes, reduced);
-    pieces.push_back({first, RationalInterpolant(nodes, chosen.degree, std::move(chosen.denominator)),
-                      std::move(reduced), std::move(chosen.without_one), std::move(chosen.rivals),
-                      chosen.gain});
+    if (degree) {
+      const int highest = static_cast<int>(nodes.size()) - 1;
+      pieces.push_back({first, RationalInterpolant(nodes, std::min(*degree, highest)), std::move(reduced)});
+    } else {
+      pieces.push_back(best_piece(first, nodes, std::move(reduced)));
+    }
     first = last;
   }
   return pieces;

@@ -13,6 +13,19 @@ namespace eigentrail {
 /// Hormann, Sect. 5).
 inline constexpr int highest_degree = 15;
 
+/// Errors with which interpolants of successive degrees predict samples that are left out.
+struct LeftOutErrors {
+  int lowest = 1;  ///< degree of the first row
+  Matrix
+      norms;  ///< degrees x samples, in the norm of SamplePiece::reduced; zero at the first and last sample
+
+  /// The error over `count` samples from `first` on, per degree.
+  Vector over(std::size_t first, std::size_t count) const;
+};
+
+/// The error of degree i that may be small by chance: that of the degree above or below, if both are larger.
+double credible_error(const Vector& errors, Eigen::Index i);
+
 /// Samples `first` ... `first` + n - 1 and their interpolant.
 struct SamplePiece {
   std::size_t first = 0;
@@ -22,10 +35,9 @@ struct SamplePiece {
   Matrix reduced;
   /// Denominators fitted to all samples but one, a denominator per sample; empty if there are no poles.
   std::vector<Denominator> without_one = {};
-  /// Other degrees, without poles, that predict samples which are left out about as well.
-  std::vector<int> rivals = {};
-  /// The error with which it predicts samples that are left out, as a share of that of degree 1.
-  double gain = 0.0;
+  /// Of polynomials, and of interpolants with as many poles as the one that is used; empty with fewer than
+  /// four samples, or if the degree was given.
+  LeftOutErrors polynomials = {}, alike = {};
 
   std::size_t size() const { return interpolant.nodes().size(); }
 };

@@ -113,7 +113,7 @@ int number_of_families() {
   return asked != nullptr ? std::atoi(asked) : 50;
 }
 
-/// Where the matrices are not smooth, few samples do not tell how far they are off between them.
+/// Where the matrices are not smooth, few samples do not always tell how far they are off between them.
 bool is_smooth(Kind kind) {
   return kind != Kind::root && kind != Kind::kink;
 }
@@ -130,7 +130,7 @@ TEST_P(StatedErrors, HoldAtThousandRandomPlacesAndAreNotMuchLarger) {
   if (is_smooth(kind)) {
     EXPECT_LT(found.worst, 2.0);
   }
-  EXPECT_GE(found.within, is_smooth(kind) ? 0.999 : 0.98);
+  EXPECT_GE(found.within, is_smooth(kind) ? 0.999 : 0.995);
   EXPECT_LT(found.median, 30.0);
 }
 

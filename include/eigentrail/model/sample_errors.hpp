@@ -56,6 +56,14 @@ struct SampleErrorOptions {
   double safety = 3.4;
   /// Largest ratio of the errors of successive degrees with which that difference is extrapolated.
   double slowest = .8;
+  /// A degree more is worth it if it brings the leave-one-out errors beside a gap down by this factor.
+  double worth_a_degree = 1.5;
+  /// Where leave-one-out errors are not below this share of those of degree 1, there may be kinks, and
+  /// one-sided lines differ from the interpolant by about its error; that is multiplied by the second number.
+  double may_have_kinks = 0.25;
+  double beside_a_kink = 3.0;
+  /// Factor for the gaps at the ends of the range, which have samples on one side only.
+  double at_an_end = 2.0;
   /// Factor of the leave-one-out errors of the neighbouring samples, whose gaps are twice as wide.
   double leave_one_out = 10.0;
   /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
