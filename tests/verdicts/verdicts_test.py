@@ -162,6 +162,17 @@ class Undamped(VerdictTest):
         text = self.run_well("events", file)
         self.assertIn("unstable above", text)
 
+    def test_rounding_of_a_stiff_column_is_neither_a_veering_nor_a_change_of_sign(self):
+        # EA L^2 / EI = 1e6, four elements, whose onset is 20.3346074; at 18.448 the two planes cross.
+        model = (MODELS / "follower_force_column.toml").read_text().replace("elements = 10", "elements = 4")
+        for tolerance in ("1e-8", "1e-9", "1e-10"):
+            with self.subTest(tolerance=tolerance):
+                file = self.trace(model, "--from", "18", "--modes", "4", "--tolerance", tolerance, "--force")
+                onset, = self.places(file, "collision")
+                self.assertAlmostEqual(onset, 20.3346074, delta=1e-7)
+                self.assertEqual(self.events(file, "veering"), [])
+                self.assertEqual(self.ranges(file), [("marginal", 18.0, onset)])
+
     def test_no_divergence_beside_a_collision_of_opposite_signs_of_energy(self):
         file = self.trace_model("indefinite_mass")
         self.assertEqual(self.events(file, "divergence", "flutter"), [])

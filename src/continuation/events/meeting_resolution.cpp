@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/matrix_series.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -22,6 +23,21 @@ double error_of_crossing(const std::vector<ComplexMatrix>& part, double lambda, 
   ComplexMatrix N = part[1];
   N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
   return curvature > 0.0 ? lambda * N.norm() / curvature : 0.0;
+}
+
+/// Error of Lambda as it is seen where symmetry of the spectrum decides on the discriminant of two: what
+/// rounding leaves of its imaginary part. Zero where nothing is known of it.
+double observed_error(const Track& track, const ComplexVector& discriminant) {
+  if (track.size() != 2) return 0.0;
+  const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
+  const ComplexVector difference = discriminant_series(Lambda, 1) - discriminant;
+  double error = 0.0;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    ComplexMatrix N = Lambda[static_cast<std::size_t>(k)];
+    N.diagonal().array() -= 0.5 * N.trace();
+    if (difference[k] != 0.0) error = std::max(error, std::abs(difference[k]) / (error_factor * N.norm()));
+  }
+  return resolution_rounding_margin * error;
 }
 
 }  // namespace
@@ -57,7 +73,8 @@ RootResolution resolution_of_roots(const Track& track, const std::vector<int>& m
   constexpr double coordinate_rounding = 1e-14;
   // At a zero eigenvalue the stiffness cancels, so that its rounding is not known from the pencil.
   constexpr double zero = 1e-3;  // of the norm of the block, which is at least the reference
-  const PartRounding rounding = rounding_of(track, part);
+  PartRounding rounding = rounding_of(track, part);
+  rounding.lambda = std::max(rounding.lambda, observed_error(track, discriminant));
   const double size = track.pair.Lambda.norm();
   const double slope = std::abs(discriminant[1]);
   const double curvature = std::abs(discriminant[2]);

@@ -234,6 +234,7 @@ std::optional<Meeting> meeting_in_one_point(const Track& track, const std::vecto
 
 ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
   const std::vector<int> members = both(a, b);
+  if (track.size() == 2 && members.size() == 2) return track.functions.row(1).transpose();
   if (with_bystanders(track.roots, members).size() == members.size()) {
     const std::vector<ComplexMatrix> part = part_of_track(track, members);
     if (!part.empty()) return discriminant_series(part, static_cast<Eigen::Index>(a.size()));

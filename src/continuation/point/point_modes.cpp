@@ -188,9 +188,9 @@ class PhysicalSeries {
   std::optional<SparseSeries> sparse_;  ///< of a large model, where most entries are zero
 };
 
-/// Removes what rounding leaves of the real part of one eigenvalue, or of the mean of two, where the spectrum
-/// is symmetric about the imaginary axis. A larger real part is of members whose mirror images are not in the
-/// block.
+/// Removes what rounding leaves of the real part of one eigenvalue, or of the mean of two and of the
+/// imaginary part of their discriminant, where the spectrum is symmetric about the imaginary axis. A larger
+/// real part is of members whose mirror images are not in the block.
 void settle_on_axis(double rounding, Track& track) {
   const Eigen::Index k = track.size();
   if (k > 2 || std::abs(track.functions(0, 0).real()) > rounding) return;
@@ -201,6 +201,7 @@ void settle_on_axis(double rounding, Track& track) {
     track.series.Lambda[static_cast<std::size_t>(j)].diagonal().array() -= track.functions(0, j).real();
   track.pair.Lambda.diagonal().array() -= track.functions(0, 0).real();
   track.functions.row(0).real().setZero();
+  if (k == 2) track.functions.row(1).imag().setZero();
   track.roots = in_order_of(track.roots, block_roots(track.functions.col(0)));
 }
 
