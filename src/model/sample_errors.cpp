@@ -4,9 +4,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/orthonormal.hpp"
+#include "model/gap_estimators.hpp"
 #include "model/sample_interpolation.hpp"
 
 namespace eigentrail {
@@ -14,13 +14,8 @@ namespace {
 
 /// A few roundings of double precision, relative to each entry.
 constexpr double rounding = 4e-16;
-/// Samples next to a gap that are looked at; the others change the estimate little.
-constexpr std::size_t most_samples = 48;
-static_assert(most_samples >= most_samples_with_poles, "poles are fitted to all samples of a piece");
 /// With fewer samples more than the degree, the leave-one-out errors of all samples are alike.
 constexpr Eigen::Index fewest_for_noise_nearby = 7;
-/// Samples near a gap whose leave-one-out errors are averaged.
-constexpr std::size_t nearby_samples = 10;
 /// Fewest samples of a piece whose errors are split in a smooth part and the rest.
 constexpr std::size_t fewest_for_noise = 6;
 
@@ -128,170 +123,6 @@ Matrix entry_variances(const PencilSamples& samples, const SamplePiece& piece, c
   return (own * variances + common * share * squares) / (own + common);
 }
 
-/// The samples of a piece that an estimate for a gap looks at.
-struct Window {
-  std::size_t first = 0;      ///< index of the first sample
-  std::vector<double> nodes;  ///< their values
-  std::size_t gap = 0;        ///< the gap, counted in the window
-  Eigen::Index offset = 0;    ///< of the window in the piece
-};
-
-Window window_at(const SamplePiece& piece, std::size_t gap) {
-  const std::vector<double>& all = piece.interpolant.nodes();
-  const std::size_t in_piece = gap - piece.first;
-  const std::size_t half = most_samples / 2;
-  const std::size_t begin = in_piece + 1 > half ? in_piece + 1 - half : 0;
-  const std::size_t end = std::min(all.size(), begin + most_samples);
-  return {piece.first + begin,
-          {all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)},
-          in_piece - begin,
-          static_cast<Eigen::Index>(begin)};
-}
-
-/// What the interpolants of neighbouring degrees differ by at places of a gap, and what the leave-one-out
-/// interpolants miss at its ends: combinations of the samples of the window, one per column.
-struct Estimators {
-  std::array<Matrix, 3> differences;        ///< of the highest pair of degrees, the next, the next
-  Matrix leave_one_out;                     ///< what is missed at the ends of the gap
-  Matrix nearby;                            ///< and at the samples near it
-  std::array<double, 3> share = {1, 0, 0};  ///< factor of each difference
-  Matrix rival;  ///< what the interpolant of the modest degree differs by, extrapolated
-  /// What the lines through the two samples before the gap and behind it differ by: of a function with a kink
-  /// in the gap, the smaller difference is true (subcell resolution: Harten, J. Comput. Phys. 83, 1989).
-  Matrix before, behind;
-  double amplification = 1.0;  ///< of errors of the samples that are not smooth
-  Vector weights;              ///< largest magnitude of each basis function
-};
-
-constexpr std::array<double, 5> places_in_gap{0.1, 0.3, 0.5, 0.7, 0.9};
-
-/// The nearest sample as an interpolant. Two samples are all that there is: the line between them is compared
-/// with this, because the interpolant of degree 0 through two samples is the line, too.
-Matrix nearest_samples() {
-  Matrix columns = Matrix::Zero(2, places_in_gap.size());
-  for (std::size_t i = 0; i < places_in_gap.size(); ++i)
-    columns(places_in_gap[i] < 0.5 ? 0 : 1, static_cast<Eigen::Index>(i)) = 1.0;
-  return columns;
-}
-
-/// How smooth the samples beside a gap are.
-struct Smoothness {
-  /// The degree, with as many poles, that predicts them best if each degree has to be worth it: where no
-  /// degree is much better than the others, or one is by chance, it may be as close to the truth.
-  int modest = 0;
-  double gain = 0.0;  ///< error of the interpolant that is used there, as a share of that of degree 1
-};
-
-Smoothness smoothness_at(const SamplePiece& piece, std::size_t gap, const SampleErrorOptions& options) {
-  const int degree = piece.interpolant.degree();
-  Smoothness found{degree};
-  if (piece.polynomials.norms.size() == 0) return found;
-  const std::size_t begin = std::max<std::size_t>(gap, 2) - 1;
-  const std::size_t count = std::min(gap + 3, piece.size() - 1) - begin;
-  const Vector alike = piece.alike.over(begin, count);
-  double least = INFINITY, factor = 1.0;
-  for (Eigen::Index i = 0; i < alike.size(); ++i, factor *= options.worth_a_degree) {
-    const double expected = factor * credible_error(alike, i);
-    if (expected < least) found.modest = piece.alike.lowest + static_cast<int>(i);
-    least = std::min(least, expected);
-  }
-  const double of_lines = piece.polynomials.over(begin, count)[0];
-  if (of_lines > 0.0) found.gain = credible_error(alike, degree - piece.alike.lowest) / of_lines;
-  return found;
-}
-
-/// The line through the samples `first` and `first` + 1 at places of a gap, a place per column.
-Matrix line_through(const std::vector<double>& nodes, std::size_t first, std::size_t gap) {
-  const auto row = static_cast<Eigen::Index>(first);
-  Matrix columns = Matrix::Zero(static_cast<Eigen::Index>(nodes.size()), places_in_gap.size());
-  for (std::size_t i = 0; i < places_in_gap.size(); ++i) {
-    const double x = nodes[gap] + places_in_gap[i] * (nodes[gap + 1] - nodes[gap]);
-    const double share = (x - nodes[first]) / (nodes[first + 1] - nodes[first]);
-    columns(row, static_cast<Eigen::Index>(i)) = 1.0 - share;
-    columns(row + 1, static_cast<Eigen::Index>(i)) = share;
-  }
-  return columns;
-}
-
-Estimators estimators(const SamplePiece& piece, const Window& window, const SampleErrorOptions& options) {
-  const auto n = static_cast<Eigen::Index>(window.nodes.size());
-  const int degree = std::min(piece.interpolant.degree(), static_cast<int>(n) - 1);
-  const int top = std::min(degree + 1, static_cast<int>(n) - 1);
-  std::array<Matrix, 4> values;  // of the interpolants of degree top, top - 1, top - 2, top - 3
-  Estimators result;
-  if (n == 1) {
-    for (Matrix& difference : result.differences) difference.resize(1, 0);
-    result.leave_one_out.resize(1, 0);
-    result.nearby.resize(1, 0);
-    result.rival.resize(1, 0);
-    result.weights = Vector::Ones(1);
-    return result;
-  }
-  const double from = window.nodes[window.gap];
-  const double length = window.nodes[window.gap + 1] - from;
-  const int n_poles = piece.interpolant.denominator().degree();
-  const auto denominator_of = [&](int d) {
-    if (n_poles == 0 || d == degree) return piece.interpolant.denominator();
-    return fitted_denominator(window.nodes, piece.reduced, d, n_poles)
-        .value_or(piece.interpolant.denominator());
-  };
-  const auto values_with = [&](int d, const Denominator& denominator) {
-    const RationalInterpolant interpolant(window.nodes, d, denominator);
-    Matrix columns(n, places_in_gap.size());
-    for (std::size_t i = 0; i < places_in_gap.size(); ++i)
-      columns.col(static_cast<Eigen::Index>(i)) = interpolant.values(from + places_in_gap[i] * length);
-    return columns;
-  };
-  const auto values_of = [&](int d) {
-    if (n == 2 && d < 1) return nearest_samples();
-    d = std::max(n_poles, d);
-    return values_with(d, denominator_of(d));
-  };
-  for (int i = 0; i < 4; ++i) values[static_cast<std::size_t>(i)] = values_of(top - i);
-  const Matrix used = values_of(degree);
-  result.weights = used.cwiseAbs().rowwise().maxCoeff();
-  result.amplification = std::max(1.0, used.colwise().norm().maxCoeff());
-  const bool at_end = window.gap == 0 || window.gap + 2 == window.nodes.size();
-  const double one_sided = at_end ? options.at_an_end : 1.0;
-  const Smoothness smoothness =
-      smoothness_at(piece, window.gap + static_cast<std::size_t>(window.offset), options);
-  const double slow = one_sided * options.safety / (1.0 - std::min(options.slowest, smoothness.gain));
-  result.rival = slow * (values_of(smoothness.modest) - used);
-  if (smoothness.gain > options.may_have_kinks && window.gap > 0 && window.gap + 3 <= window.nodes.size()) {
-    result.before = options.beside_a_kink * (line_through(window.nodes, window.gap - 1, window.gap) - used);
-    result.behind = options.beside_a_kink * (line_through(window.nodes, window.gap + 1, window.gap) - used);
-  }
-  const auto reduced = piece.reduced.middleCols(window.offset, n);
-  std::array<double, 3> norms{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.differences[i] = values[i] - values[i + 1];
-    norms[i] = (reduced * result.differences[i]).colwise().norm().maxCoeff();
-  }
-  const auto ratio = [](double a, double b, double most) { return b > 0.0 ? std::min(most, a / b) : 0.0; };
-  const double slowest = options.slowest;
-  const double rate = ratio(norms[0], norms[1], slowest);
-  const double extrapolated = options.safety / (1.0 - rate);
-  result.share = {extrapolated, extrapolated * rate,
-                  extrapolated * ratio(norms[0], norms[2], slowest * slowest)};
-  // With equidistant nodes a missing one lets the error grow by about pi (d + 1) / 2 + 0.8: the square of
-  // (2 m)!! / (2 m - 1)!!, m = (d + 1) / 2.
-  const double factor = one_sided * options.leave_one_out / (0.5 * std::numbers::pi * (degree + 1) + 0.8);
-  const auto missed_at = [&](std::size_t begin, std::size_t end) {
-    begin = std::max<std::size_t>(begin, 1);
-    end = std::min(end, window.nodes.size() - 1);
-    Matrix columns(n, static_cast<Eigen::Index>(end > begin ? end - begin : 0));
-    for (std::size_t node = begin; node < end; ++node)
-      columns.col(static_cast<Eigen::Index>(node - begin)) = leave_one_out(
-          window.nodes, degree, node, piece.without_one.empty() ? Denominator{} : piece.without_one[node]);
-    return columns;
-  };
-  result.leave_one_out = factor * missed_at(window.gap, window.gap + 2);
-  const std::size_t half = nearby_samples / 2;
-  const std::size_t begin = window.gap + 1 > half ? window.gap + 1 - half : 0;
-  result.nearby = missed_at(begin, window.gap + 1 + half);
-  return result;
-}
-
 /// The eigenvectors as matrices.
 struct Triples {
   ComplexMatrix right, left;  ///< n x k
@@ -383,8 +214,8 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
   const double middle = 0.5 * (values_[gap] + values_[std::min(gap + 1, values_.size() - 1)]);
   const SamplePiece& piece = piece_at(pieces_, middle);
   const auto& variances = variances_[static_cast<std::size_t>(&piece - pieces_.data())];
-  const Window window = window_at(piece, gap);
-  const Estimators estimators_here = estimators(piece, window, options_);
+  const GapWindow window = window_at(piece, gap);
+  const GapEstimators here = gap_estimators(piece, window, options_);
   const auto n_samples = static_cast<Eigen::Index>(window.nodes.size());
   const auto n_triples = static_cast<Eigen::Index>(triples.size());
   std::array<ComplexMatrix, 3> coefficients;
@@ -410,7 +241,7 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
     if (!one.entry_errors.empty()) {
       Matrix errors = Matrix::Zero(magnitude.rows(), magnitude.cols());
       for (Eigen::Index j = 0; j < n_samples; ++j)
-        errors += estimators_here.weights[j] * one.errors_at(window.first + static_cast<std::size_t>(j));
+        errors += here.weights[j] * one.errors_at(window.first + static_cast<std::size_t>(j));
       if (one.is_constant()) errors = one.errors_at(0);
       digits += magnitudes_through(errors, all, one.power);
     }
@@ -435,30 +266,30 @@ SampleBounds InterpolationErrors::between(std::size_t gap, std::span<const Eigen
     smooth = smooth.cwiseMax(errors.cwiseAbs().rowwise().maxCoeff());
     smooth_growth = smooth_growth.cwiseMax(errors.real().cwiseAbs().rowwise().maxCoeff());
   };
-  for (std::size_t i = 0; i < 3; ++i) raise(estimators_here.differences[i], estimators_here.share[i]);
-  raise(estimators_here.leave_one_out, 1.0);
-  raise(estimators_here.rival, 1.0);
-  if (estimators_here.before.cols() > 0) {
-    const ComplexMatrix before = shares * estimators_here.before, behind = shares * estimators_here.behind;
+  for (std::size_t i = 0; i < 3; ++i) raise(here.differences[i], here.share[i]);
+  raise(here.leave_one_out, 1.0);
+  raise(here.rival, 1.0);
+  if (here.before.cols() > 0) {
+    const ComplexMatrix before = shares * here.before, behind = shares * here.behind;
     const Matrix least = before.cwiseAbs().cwiseMin(behind.cwiseAbs());
     const Matrix least_growth = before.real().cwiseAbs().cwiseMin(behind.real().cwiseAbs());
     smooth = smooth.cwiseMax(least.rowwise().maxCoeff());
     smooth_growth = smooth_growth.cwiseMax(least_growth.rowwise().maxCoeff());
   }
-  const Matrix& nearby = estimators_here.nearby;
+  const Matrix& nearby = here.nearby;
   const bool sees_nearby =
       nearby.cols() > 0 && n_samples - piece.interpolant.degree() > fewest_for_noise_nearby;
   // From the variance of an error, and from what the samples nearby miss of it.
   const auto rough = [&](const Vector& expected, const Vector& sum) -> Vector {
     const Vector on_range = options_.deviations * expected.cwiseSqrt();
-    if (!sees_nearby) return estimators_here.amplification * on_range + floor;
+    if (!sees_nearby) return here.amplification * on_range + floor;
     // By chance all of a few may be small, so the variance counts like one more sample. It takes the entries
     // for independent of each other and may be far too large, so that its weight is limited.
     constexpr double largest_ratio = 30.0;
     const auto own = static_cast<double>(nearby.cols());
     const Vector squares = (sum + expected.cwiseMin(largest_ratio / own * sum)) / (own + 1.0);
-    const Vector here = options_.deviations_nearby * squares.cwiseSqrt();
-    return estimators_here.amplification * on_range.cwiseMin(here) + floor;
+    const Vector beside = options_.deviations_nearby * squares.cwiseSqrt();
+    return here.amplification * on_range.cwiseMin(beside) + floor;
   };
   const ComplexMatrix missed =
       sees_nearby ? ComplexMatrix(shares * nearby) : ComplexMatrix::Zero(n_triples, 1);

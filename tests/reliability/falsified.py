@@ -60,6 +60,12 @@ def change(file, name, place, new):
     file[name][...] = data
 
 
+def resize(dataset, count):
+    if dataset.chunks is None:
+        raise NotApplicable
+    dataset.resize(count, axis=0)
+
+
 def dimensions(dataset):
     """Names of the dimension scales of a dataset, "" where there is none."""
     return [next((scale.name for scale in dim.values()), "") for dim in getattr(dataset, "dims", [])]
@@ -72,7 +78,7 @@ def event_datasets(file):
 def keep_events(file, kept):
     for name in event_datasets(file):
         data = file[name][()][kept]
-        file[name].resize(len(kept), axis=0)
+        resize(file[name], len(kept))
         file[name][...] = data
 
 
@@ -144,7 +150,7 @@ def event_invented(chance, file):
     count = len(file["events"])
     for name in event_datasets(file):
         data = file[name][()]
-        file[name].resize(count + 1, axis=0)
+        resize(file[name], count + 1)
         file[name][...] = np.concatenate([data, data[event:event + 1]])
     node = max(file["event_node"][event], 1)
     p = parameter(file)[()]
@@ -260,7 +266,7 @@ def range_invented(chance, file):
         raise NotApplicable
     for name in file:
         if name == "range" or name.startswith("stable_"):
-            file[name].resize(1, axis=0)
+            resize(file[name], 1)
     file["stable_from"][0], file["stable_to"][0] = p[0], p[-1]
     file["stable_kind"][0] = "stable"
 
@@ -298,9 +304,9 @@ def last_point_missing(chance, file):
         raise NotApplicable
     for dataset in file.values():
         if dimensions(dataset)[:1] in (["/node"], ["/step"]):
-            dataset.resize(len(dataset) - 1, axis=0)
+            resize(dataset, len(dataset) - 1)
     for name in ("node", "step"):
-        file[name].resize(len(file[name]) - 1, axis=0)
+        resize(file[name], len(file[name]) - 1)
 
 
 def mode_deleted(chance, file):
