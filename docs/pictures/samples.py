@@ -43,7 +43,7 @@ def main():
     matplotlib.rcParams.update({"svg.hashsalt": "eigentrail", "font.size": 9.5})
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), sharey=True, layout="constrained")
     draw(left, sys.argv[1], [80, 125, 170, 215, 260])
-    draw(right, sys.argv[2], [80, 125, 146.6, 170, 193.4, 215, 242.9, 260])
+    draw(right, sys.argv[2], [80, 97.1, 125, 170, 193.4, 215, 242.9, 260])
     right.set(ylabel=None)
     left.legend(loc="upper left", frameon=False)
     figure.savefig(HERE / "samples.svg", metadata={"Date": None})
