@@ -46,8 +46,10 @@ class AgainstEval(ProgramTest):
             self.run_well("eval", "loci.h5", "--csv", "--at", *map(repr, map(float, values))))))
         for name, columns in (("eigenvalue", ("real", "imag")), ("natural_frequency", ("natural_frequency",)),
                               ("damped_frequency", ("damped_frequency",))):
-            self.assertEqual(self.rows(found[name], parameter), [
-                (float(row["parameter"]), row["mode"], complex(*(float(row[column]) for column in columns))) for row in printed])
+            ours = self.rows(found[name], parameter)
+            theirs = [(float(row["parameter"]), row["mode"], complex(*(float(row[column]) for column in columns))) for row in printed]
+            self.assertEqual(len(ours), len(theirs))
+            self.assertEqual([pair for pair in zip(ours, theirs) if pair[0] != pair[1]], [])
         return loci
 
     @staticmethod

@@ -34,8 +34,9 @@ def evaluated(path, certified, values):
 def columns_of(s, certified):
     """What `sel` says of eigenvalues."""
     with np.errstate(invalid="ignore"):
-        return {"eigenvalue": s, "frequency": np.abs(s), "natural_frequency": np.abs(s), "damped_frequency": np.abs(s.imag),
-                "damping_ratio": -s.real / np.abs(s), "certified": certified}
+        size = np.hypot(s.real, s.imag)  # to the last digit as `eval` has it; np.abs may be vectorized
+        return {"eigenvalue": s, "frequency": size, "natural_frequency": size, "damped_frequency": np.abs(s.imag),
+                "damping_ratio": -s.real / size, "certified": certified}
 
 
 def mode_names(data):

@@ -267,14 +267,17 @@ Event VeeringWalk::event_at(Complex root) const {
 }
 
 /// Whether the root is a veering: not a double root of the discriminant, confirmed by the series at its real
-/// part, and neither too wide nor narrower than the resolution. The series does not confirm a root if another
-/// exceptional point is as close.
+/// part, and neither too wide nor narrower than the resolution, or than rounding may open a crossing to. The
+/// series does not confirm a root if another exceptional point is as close.
 bool VeeringWalk::counts(const Event& event, Complex root) const {
   const VeeringThresholds& thresholds = search_.thresholds().veering;
   const double widest = thresholds.widest * (1.0 + limit_rounding) * search_.frame().range.length();
+  const ComplexVector discriminant = discriminant_at(*below_);
+  const double error = search_.thresholds().rounding.entries * below_->tracks.front().pair.rounding;
   return !discriminant_.is_double_root(root, thresholds.trusted_share) &&
-         confirms_root(discriminant_at(*below_), root - position_, thresholds.trusted_share) &&
-         event.half_width <= widest && std::abs(root.imag()) >= resolution_;
+         confirms_root(discriminant, root - position_, thresholds.trusted_share) &&
+         event.half_width <= widest && std::abs(root.imag()) >= resolution_ &&
+         std::abs(root.imag()) * std::sqrt(std::abs(discriminant[2])) >= error;
 }
 
 FoundEvents VeeringWalk::run() {
