@@ -178,9 +178,7 @@ ComplexMatrix block_of(const ComplexVector& functions) {
 }
 
 ComplexMatrix centred_block(const HermiteInterpolant& functions, double t) {
-  ComplexMatrix N = block_of(functions(t));
-  N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
-  return N;
+  return centred(block_of(functions(t)));
 }
 
 std::vector<ComplexMatrix> series_at(const HermiteInterpolant& functions, double t) {

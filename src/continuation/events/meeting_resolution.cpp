@@ -20,9 +20,7 @@ constexpr double error_factor = 4.0;
 /// is the curvature of the discriminant. The motion of the mean of the two does not count.
 double error_of_crossing(const std::vector<ComplexMatrix>& part, double lambda, double curvature) {
   if (part.size() < 2) return lambda;
-  ComplexMatrix N = part[1];
-  N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
-  return curvature > 0.0 ? lambda * N.norm() / curvature : 0.0;
+  return curvature > 0.0 ? lambda * centred(part[1]).norm() / curvature : 0.0;
 }
 
 /// Error of Lambda as it is seen where symmetry of the spectrum decides on the discriminant of two: what
@@ -33,9 +31,9 @@ double observed_error(const Track& track, const ComplexVector& discriminant) {
   const ComplexVector difference = discriminant_series(Lambda, 1) - discriminant;
   double error = 0.0;
   for (Eigen::Index k = 0; k < 2; ++k) {
-    ComplexMatrix N = Lambda[static_cast<std::size_t>(k)];
-    N.diagonal().array() -= 0.5 * N.trace();
-    if (difference[k] != 0.0) error = std::max(error, std::abs(difference[k]) / (error_factor * N.norm()));
+    if (difference[k] == 0.0) continue;
+    const double size = centred(Lambda[static_cast<std::size_t>(k)]).norm();
+    error = std::max(error, std::abs(difference[k]) / (error_factor * size));
   }
   return resolution_rounding_margin * error;
 }
@@ -51,10 +49,13 @@ PartRounding rounding_of(const Track& track, const std::vector<ComplexMatrix>& p
   return {unit_error * track.pair.Lambda.norm() * condition, part.size() > 1 ? part[1].norm() : 1.0};
 }
 
-ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
-  ComplexMatrix N = evaluate_series(Lambda, h);
+ComplexMatrix centred(ComplexMatrix N) {
   N.diagonal().array() -= N.trace() / static_cast<double>(N.rows());
   return N;
+}
+
+ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h) {
+  return centred(evaluate_series(Lambda, h));
 }
 
 double RootResolution::of_root_with(double slope) const {

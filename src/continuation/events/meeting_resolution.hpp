@@ -17,7 +17,10 @@ struct PartRounding {
 /// Lambda.
 PartRounding rounding_of(const Track& track, const std::vector<ComplexMatrix>& part);
 
-/// Lambda at h less the mean of its eigenvalues times the unit matrix.
+/// N less the mean of its eigenvalues times the unit matrix.
+ComplexMatrix centred(ComplexMatrix N);
+
+/// The same of Lambda at h.
 ComplexMatrix centred(const std::vector<ComplexMatrix>& Lambda, double h);
 
 /// Errors of the roots of a discriminant, in the path's coordinate.
