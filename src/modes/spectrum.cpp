@@ -23,8 +23,8 @@ namespace {
 constexpr double infinite = 1e-12;
 /// A matrix with a pivot below this fraction of the largest one is singular to working precision.
 constexpr double singular_pivot = 1e-15;
-/// Reciprocal condition of M above which M is inverted: the digits that the eigenvalues lose do not matter,
-/// because they are corrected later.
+/// Reciprocal condition of an equilibrated M above which M is inverted: the digits that the eigenvalues lose
+/// do not matter, because they are corrected later.
 constexpr double well_conditioned = 1e-4;
 
 struct Scaling {
@@ -48,15 +48,25 @@ Scaling fan_lin_van_dooren(const Values& M, const Values& C, const Values& K) {
   return scaling;
 }
 
-/// Whether P is singular to working precision. Rows and columns are scaled to equal magnitude first, so that
-/// matrices with entries of very different magnitude are not taken for singular.
-bool is_singular_matrix(ComplexMatrix P) {
-  const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
-  const Vector rows = P.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
-  P = rows.asDiagonal() * P;
-  const Vector columns = P.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(inverse);
-  P = P * columns.asDiagonal();
-  const Vector pivots = Eigen::PartialPivLU<ComplexMatrix>(P).matrixLU().diagonal().cwiseAbs();
+/// Factors of the rows and columns of a matrix that make the largest entry of each column one, and that of
+/// each row at least one: entries of very different magnitude, as of other units, then do not make it
+/// singular.
+template <class Values>
+struct Equilibration {
+  Vector rows, columns;
+
+  explicit Equilibration(const Values& A) {
+    const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
+    rows = A.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
+    columns = (rows.asDiagonal() * A).cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(inverse);
+  }
+  Values of(const Values& A) const { return rows.asDiagonal() * A * columns.asDiagonal(); }
+};
+
+/// Whether P is singular to working precision.
+bool is_singular_matrix(const ComplexMatrix& P) {
+  const Eigen::PartialPivLU<ComplexMatrix> lu(Equilibration<ComplexMatrix>(P).of(P));
+  const Vector pivots = lu.matrixLU().diagonal().cwiseAbs();
   return !(pivots.minCoeff() > singular_pivot * pivots.maxCoeff());
 }
 
@@ -177,8 +187,10 @@ Homogeneous by_squares(const Matrix& M, const Matrix& K) {
 
 Homogeneous eigenvalues_of(const Matrix& M, const Matrix& C, const Matrix& K) {
   if (C.isZero(0.0)) return by_squares(M, K);
-  const Eigen::PartialPivLU<Matrix> lu(M);
-  return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, C, K) : by_qz(M, C, K, false);
+  const Equilibration<Matrix> equal(M);
+  const Eigen::PartialPivLU<Matrix> lu(equal.of(M));
+  return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, equal.of(C), equal.of(K))
+                                                     : by_qz(M, C, K, false);
 }
 
 /// By increasing |s|.
@@ -311,10 +323,11 @@ Spectrum solve_complex_part(const ReducedPencil& pencil, bool with_vectors) {
     spectrum.status = SpectrumStatus::singular_pencil;
     return spectrum;
   }
-  const Eigen::PartialPivLU<ComplexMatrix> lu(M);
+  const Equilibration<ComplexMatrix> equal(M);
+  const Eigen::PartialPivLU<ComplexMatrix> lu(equal.of(M));
   ComplexMatrix vectors;
   const auto all = !with_vectors && lu.rcond() > well_conditioned
-                       ? complex_qr(lu, C, K)
+                       ? complex_qr(lu, equal.of(C), equal.of(K))
                        : complex_qz(M, C, K, with_vectors ? &vectors : nullptr);
   if (!all) return spectrum;
   const auto& [alpha, beta] = *all;
