@@ -1,6 +1,6 @@
 #include "eigentrail/core/chebyshev.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -78,13 +78,33 @@ std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients) {
 
 std::vector<Complex> polynomial_roots(const ComplexVector& coefficients) {
   if (!coefficients.allFinite()) return {};
-  const Eigen::Index top = significant(coefficients);
-  if (top == 0) return {};
-  ComplexMatrix companion = ComplexMatrix::Zero(top, top);
-  companion.bottomLeftCorner(top - 1, top - 1).setIdentity();
-  companion.col(top - 1) = -coefficients.head(top) / coefficients[top];
-  const ComplexVector roots = Eigen::ComplexEigenSolver<ComplexMatrix>(companion, false).eigenvalues();
-  return {roots.begin(), roots.end()};
+  Eigen::Index zeros = 0, top = coefficients.size() - 1;
+  while (top > 0 && coefficients[top] == 0.0) --top;
+  while (zeros < top && coefficients[zeros] == 0.0) ++zeros;
+  std::vector<Complex> roots(static_cast<std::size_t>(zeros), 0.0);
+  if (top == zeros) return roots;
+  // In the unit of about the smallest root no coefficient exceeds the first one: division by that does no
+  // harm, and gives the reciprocals of the roots, the smallest roots most accurately.
+  const Eigen::Index degree = top - zeros;
+  double unit = INFINITY;
+  for (Eigen::Index k = 1; k <= degree; ++k)
+    unit = std::min(unit, std::pow(std::abs(coefficients[zeros] / coefficients[zeros + k]),
+                                   1.0 / static_cast<double>(k)));
+  const auto size = static_cast<lapack_int>(degree);
+  ComplexMatrix companion = ComplexMatrix::Zero(degree, degree);
+  companion.bottomLeftCorner(degree - 1, degree - 1).setIdentity();
+  for (Eigen::Index k = 1; k <= degree; ++k)
+    companion(degree - k, degree - 1) =
+        -coefficients[zeros + k] / coefficients[zeros] * std::pow(unit, static_cast<double>(k));
+  ComplexVector reciprocals(degree);
+  // It balances the matrix first: roots of very different size are as accurate as their coefficients.
+  if (LAPACKE_zgeev(LAPACK_COL_MAJOR, 'N', 'N', size, companion.data(), size, reciprocals.data(), nullptr, 1,
+                    nullptr, 1) != 0)
+    return {};
+  for (const Complex reciprocal : reciprocals) {
+    if (reciprocal != 0.0) roots.push_back(unit / reciprocal);
+  }
+  return roots;
 }
 
 bool has_no_root_within(const ComplexVector& coefficients, double radius) {

@@ -139,8 +139,35 @@ TEST(PolynomialRoots, AreAllFound) {
 TEST(PolynomialRoots, LeadingZerosLowerTheDegree) {
   ComplexVector c = ComplexVector::Zero(6);
   c.head(3) = coefficients({Complex(2.0), Complex(0.0, 3.0)});
-  c[4] = 1e-18;
   EXPECT_LT(matched_distance({Complex(2.0), Complex(0.0, 3.0)}, polynomial_roots(c)), tolerance);
+}
+
+TEST(PolynomialRoots, DoNotDependOnTheUnit) {
+  for (const double unit : {1e-12, 1e-6, 1e9}) {
+    const std::vector<Complex> roots{Complex(0.5, 2.0), -1.0, Complex(0.3, -0.4), 2.0, 30.0, 1e3};
+    std::vector<Complex> in_unit;
+    for (const Complex root : roots) in_unit.push_back(unit * root);
+    std::vector<Complex> found = polynomial_roots(coefficients(in_unit));
+    for (Complex& root : found) root /= unit;
+    EXPECT_LT(matched_distance(roots, found), 1e3 * 100.0 * tolerance) << unit;
+  }
+}
+
+TEST(PolynomialRoots, OfVeryDifferentSizeAreAllAccurate) {
+  const std::vector<Complex> roots = polynomial_roots(coefficients({Complex(1e-14), -1e-3, 2e-3, 1.0, 1e3}));
+  for (const double root : {1e-14, -1e-3, 2e-3, 1.0, 1e3}) {
+    const auto nearest = std::min_element(roots.begin(), roots.end(), [&](Complex a, Complex b) {
+      return std::abs(a - root) < std::abs(b - root);
+    });
+    ASSERT_NE(nearest, roots.end());
+    EXPECT_LT(std::abs(*nearest / root - 1.0), 1e-6) << root;
+  }
+}
+
+TEST(PolynomialRoots, OfZeroAreExact) {
+  EXPECT_LT(matched_distance({Complex(0.0), Complex(0.0), Complex(-2.0)},
+                             polynomial_roots(ComplexVector{{0.0, 0.0, 2.0, 1.0}})),
+            tolerance);
 }
 
 TEST(PolynomialRoots, OfAConstantOrNothingAreNone) {

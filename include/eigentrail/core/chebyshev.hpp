@@ -18,8 +18,9 @@ ComplexVector chebyshev_coefficients(const std::function<Complex(double)>& f, in
 /// no roots for a constant or zero polynomial, for coefficients that are not finite, and if LAPACK fails.
 std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients);
 
-/// All complex roots of sum_k coefficients[k] h^k: eigenvalues of its companion matrix. Returns no roots for
-/// a constant or zero polynomial and for coefficients that are not finite.
+/// All complex roots of sum_k coefficients[k] h^k, whatever the unit of h: reciprocals of the eigenvalues of
+/// the companion matrix of 1/h. Returns no roots for a constant or zero polynomial, for coefficients that are
+/// not finite, and if LAPACK fails.
 std::vector<Complex> polynomial_roots(const ComplexVector& coefficients);
 
 /// Sufficient test that sum_k coefficients[k] h^k has no root with |h| <= radius: |c_0| > sum_{k>0} |c_k|
