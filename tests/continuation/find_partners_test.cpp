@@ -31,6 +31,18 @@ TEST(FindPartners, IsWhomAModeMeetsWithinTheReach) {
   EXPECT_NEAR(partners[0].distance, 0.0, 1e-7);
 }
 
+TEST(FindPartners, DoNotDependOnTheUnitOfTheParameter) {
+  for (const double unit : {1e-12, 1e-9, 1e9}) {
+    Planted family = Planted::frequencies(
+        uncoupled(Matrix{{2.0, 1.0 / unit}, {2.6, -1.0 / unit}, {5.0, 0.0}, {9.0, 0.0}}));
+    const PathNode node = family.point(0.0, alone(at_zero));
+    const auto partners = find_partners(node, 0, 0.1 * unit, 3.0);
+    ASSERT_EQ(partners.size(), 1U) << unit;
+    EXPECT_EQ(partners[0].track, 1U);
+    EXPECT_NEAR(partners[0].distance / unit, 0.2, 1e-7);
+  }
+}
+
 TEST(FindPartners, DistanceIsThatFromTheStep) {
   Planted family = crossing();
   const PathNode node = family.point(0.0, alone(at_zero));
@@ -116,11 +128,21 @@ TEST(FindPartners, IsAModesOwnConjugateBeforeTheRealAxis) {
   EXPECT_TRUE(find_partners(node, 1, 0.1, 2.0).empty());
 }
 
+TEST(LimitingPartners, AreAsSingularAsTheModeItself) {
+  Planted family = towards_the_axis(0.5);
+  const PathNode node = family.point(0.74, alone({upper(0.5, 0.74), far_away}));
+  const auto limiting = limiting_partners(node, 0, 0.01, 2.0);
+  ASSERT_EQ(limiting.size(), 1U);
+  EXPECT_TRUE(limiting[0].conjugate);
+  EXPECT_FALSE(may_limit(node, 0, {false, 1, 0.0}));
+  EXPECT_TRUE(may_limit(node, 1, {false, 0, 0.0}));
+}
+
 TEST(FindPartners, RealModeHasNoConjugate) {
   Planted family = towards_the_axis(0.5);
   // Behind the collision, at p = 0.76: s = -0.5 +- 0.1, which meet each other behind the step.
   const PathNode node = family.point(0.76, alone({Complex(-0.4), Complex(-0.6), far_away}));
-  const auto partners = find_partners(node, 0, 0.005, 2.0);
+  const auto partners = find_partners(node, 0, 0.005, 2.5);
   ASSERT_EQ(partners.size(), 1U);
   EXPECT_FALSE(partners[0].conjugate);
   EXPECT_EQ(partners[0].track, 1U);

@@ -199,12 +199,12 @@ bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t tra
                      RunCounts& counts) {
   const std::size_t followed = node.tracks.size();
   add_neighbours(problem, node, track, counts);
-  std::vector<Partner> partners = find_partners(node, track, h, reach);
+  std::vector<Partner> partners = limiting_partners(node, track, h, reach);
   std::erase_if(partners, [&](const Partner& one) { return one.conjugate || one.track < followed; });
   double kept = 0.0;
   if (partners.empty()) {
     const std::optional<Partner> nearest = nearest_partner(node, track);
-    if (nearest && !nearest->conjugate && nearest->track >= followed) {
+    if (nearest && !nearest->conjugate && nearest->track >= followed && may_limit(node, track, *nearest)) {
       partners.push_back(*nearest);
       kept = kept_together * nearest->distance;
     }

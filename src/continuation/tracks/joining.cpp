@@ -16,6 +16,8 @@ namespace {
 /// Largest error of a block, as a share of that of the single mode, at which the block is worth its cost.
 /// With order 3 the step grows with the eighth root of the error, 1 / 0.05^(1/8) = 1.45 times.
 constexpr double worthwhile = 0.05;
+/// The same where steps have shrunk: towards a meeting they would shrink further, and a block ends that.
+constexpr double worthwhile_where_shrunk = 0.5;
 /// Single modes with at least this share of the accepted error limit the step.
 constexpr double limiting_error = 0.1;
 /// As `worthwhile`, for the change to the other chart, which has no extra cost.
@@ -66,6 +68,7 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
   const double scale = std::max(there.roots.cwiseAbs().mean(), problem.reference(there.pair.chart));
   const double accepted = accepted_share * rules.tolerance * scale;
   const double length = std::abs(step.h);
+  const double gain = rules.has_shrunk(length) ? worthwhile_where_shrunk : worthwhile;
   const Eigen::Index largest = length < much_shrinking * rules.longest_step ? most_together
                                : rules.has_shrunk(length)                   ? 6
                                                                             : 2;
@@ -79,7 +82,7 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
     chosen.push_back(candidate);
     const double together =
         error_as_block(*step.left, step.right, track, chosen, step.h, least_relative_gap * scale);
-    if (together <= worthwhile * error * accepted) return chosen;
+    if (together <= gain * error * accepted) return chosen;
   }
   return {};
 }
@@ -114,7 +117,7 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
     }
     Choice choice{tracks[i].lineage, {}, {}};
     choice.partners = helpful_partners(problem, rules, step, i, error,
-                                       find_partners(step.right, i, next_step, rules.parting_reach));
+                                       limiting_partners(step.right, i, next_step, rules.parting_reach));
     for (const Partner& partner : choice.partners)
       choice.partner_lineages.push_back(tracks[partner.track].lineage);
     if (!choice.partners.empty()) choices.push_back(std::move(choice));

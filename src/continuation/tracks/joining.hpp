@@ -29,7 +29,7 @@ struct JoiningRules {
 /// The partners with which a block reduces the error of a track so much that it is worth its cost: the
 /// nearest candidate and, if that is not enough, the next ones. Empty if no such block does. `error`: error
 /// of the track on the step, divided by the accepted one. `candidates`: by ascending distance, as from
-/// find_partners.
+/// limiting_partners.
 std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningRules& rules, const Step& step,
                                       std::size_t track, double error,
                                       const std::vector<Partner>& candidates);

@@ -138,6 +138,39 @@ std::vector<Partner> find_partners(const PathNode& node, std::size_t index, doub
 
 namespace {
 
+/// Eigenvalues that meet have one singularity, and last terms of their series of one size (Darboux). With
+/// less than this share of that of another one, an eigenvalue is not what keeps that from converging.
+constexpr double same_singularity = 0.1;
+
+/// Largest last term of the series of the eigenvalues of a track in a chart; infinite where one has none.
+double last_term_of(const Track& track, Chart chart) {
+  double largest = 0.0;
+  for (const Complex root : track.roots) {
+    ComplexVector series = root_series(track.functions, root);
+    if (series.size() > 0) series = in_chart(std::move(series), track, chart);
+    if (series.size() == 0) return INFINITY;
+    largest = std::max(largest, std::abs(series[series.size() - 1]));
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool may_limit(const PathNode& node, std::size_t index, const Partner& partner) {
+  const Chart chart = node.tracks[index].pair.chart;
+  const double own = last_term_of(node.tracks[index], chart);
+  const double other = last_term_of(node.tracks[partner.track], chart);
+  return other >= same_singularity * own || !std::isfinite(own);
+}
+
+std::vector<Partner> limiting_partners(const PathNode& node, std::size_t index, double h, double reach) {
+  std::vector<Partner> partners = find_partners(node, index, h, reach);
+  std::erase_if(partners, [&](const Partner& one) { return !may_limit(node, index, one); });
+  return partners;
+}
+
+namespace {
+
 /// How far the mean eigenvalue of a track moves on a step of length h.
 double movement(const Track& track, double h) {
   return std::abs(mean_series(track.series.Lambda)[1] * h);

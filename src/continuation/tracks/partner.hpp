@@ -33,6 +33,13 @@ struct Partner {
 /// ascending distance.
 std::vector<Partner> find_partners(const PathNode& node, std::size_t track, double h, double reach);
 
+/// Whether a partner may be the reason why the series of `track` converges no farther: its own is as
+/// singular.
+bool may_limit(const PathNode& node, std::size_t track, const Partner& partner);
+
+/// Those of find_partners that may be the reason why the series of `track` converges no farther.
+std::vector<Partner> limiting_partners(const PathNode& node, std::size_t track, double h, double reach);
+
 /// The tracks that a certificate cannot keep apart from `track` on a step of length h, by ascending distance:
 /// those closer to it, or to another one of them, than a small share of the way that their eigenvalues move.
 /// Empty if with them the block would be too large.

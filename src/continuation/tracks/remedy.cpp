@@ -95,7 +95,7 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
     for (const Partner& one : partners) kept = std::max(kept, kept_together * one.distance);
   } else if (verdict.kind == Verdict::Kind::inaccurate && step != nullptr) {
     partners = helpful_partners(problem, rules, *step, track, verdict.error,
-                                find_partners(node, track, h, rules.parting_reach));
+                                limiting_partners(node, track, h, rules.parting_reach));
   } else {
     partners = find_partners(node, track, h, join_reach);
     if (partners.size() > 1) partners.resize(1);
