@@ -64,6 +64,23 @@ TEST(StepControl, FollowsASingularityWithoutRejections) {
   EXPECT_LT(accepted, 60);
 }
 
+TEST(StepControl, ErrorsThatAreRoundingShortenNoStep) {
+  // A certificate that does not close has made steps short; series are exact on them.
+  StepControl control(3, 0.1, 10.0, 1e-10);
+  control.accept(0.1, 0.2);
+  double h = control.propose(100.0);
+  control.reject(h, INFINITY);
+  h = control.propose(100.0);
+  for (int i = 0; i < 5; ++i) {
+    control.accept(h, 0.0);
+    EXPECT_GE(control.propose(100.0), h);
+    h = control.propose(100.0);
+  }
+  // From rounding to an error of the step there is no trend.
+  control.accept(h, 0.3);
+  EXPECT_NEAR(control.propose(100.0), h, 1e-12);
+}
+
 TEST(StepControl, FailedStepsShrinkUntilExhausted) {
   StepControl control(2, 0.1, 0.25, 1e-11 * 1.0);
   int tries = 0;

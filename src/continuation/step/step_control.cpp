@@ -58,7 +58,7 @@ void StepControl::accept(double h, double error) {
   }
   if (rejected_) factor = std::min(factor, 1.0);
   step_ = std::clamp(h * std::clamp(factor, smallest_growth, largest_growth), min_step_, max_step_);
-  last_step_ = h;
+  last_step_ = error > least_error ? h : 0.0;
   last_error_ = error;
   rejected_ = false;
 }

@@ -174,8 +174,10 @@ Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double t
     if (error > worst.error)
       worst = {Verdict::Kind::inaccurate, -1, error, "the parameter along the path is inaccurate"};
   }
-  if (!(worst.error > 1.0)) return {Verdict::Kind::accepted, worst.track, worst.error};
-  return worst;
+  if (worst.error > 1.0 || std::isnan(worst.error)) return worst;
+  const bool is_rounding =
+      worst.track >= 0 && series_are_exact(problem, tolerance, step, static_cast<std::size_t>(worst.track));
+  return {Verdict::Kind::accepted, worst.track, is_rounding ? 0.0 : worst.error};
 }
 
 }  // namespace eigentrail

@@ -49,8 +49,8 @@ double known_rounding(const PathFrame& frame, const Track& track);
 void note_rounding(const Track& track, double seen, PathFrame& frame);
 
 /// The largest error of all tracks, and of p where the coordinate is the distance across a plane. The verdict
-/// is `accepted` up to an error of one, else `inaccurate`.
-/// Rounding that the frame knows is none. A short part of an accurate step is accurate.
+/// is `accepted` up to an error of one, else `inaccurate`. Rounding that the frame knows is none; nor is, on
+/// an accepted step, what is left where series are exact. A short part of an accurate step is accurate.
 Verdict judge_error(const PathProblem& problem, const PathFrame& frame, double tolerance, const Step& step);
 
 }  // namespace eigentrail
