@@ -114,9 +114,11 @@ void ModeMotions::append(const TracePoint& point) {
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
     const Vector share = shares.col(static_cast<Eigen::Index>(i));
     const auto [mode, is_new] = modes_.try_emplace(static_cast<std::size_t>(point.modes[i].mode));
-    if (is_new) mode->second = {share, share, std::abs(point.modes[i].s), point.modes[i].s.imag() / speed};
+    if (is_new)
+      mode->second = {share, share, points_, std::abs(point.modes[i].s), point.modes[i].s.imag() / speed};
     mode->second.last = share;
   }
+  ++points_;
 }
 
 void ModeMotions::give_names(const std::vector<GivenName>& names, const TracePoint& first,
@@ -163,9 +165,11 @@ std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
   if (shares_.motions().empty()) return result;
   std::vector<std::size_t> ascending;
   for (const auto& [mode, ends] : modes_) ascending.push_back(mode);
-  std::stable_sort(ascending.begin(), ascending.end(), [&](std::size_t a, std::size_t b) {
-    return modes_.at(a).frequency < modes_.at(b).frequency;
-  });
+  const auto order = [&](std::size_t mode) {
+    return std::pair(modes_.at(mode).begins, modes_.at(mode).frequency);
+  };
+  std::stable_sort(ascending.begin(), ascending.end(),
+                   [&](std::size_t a, std::size_t b) { return order(a) < order(b); });
   Matrix shares(static_cast<Eigen::Index>(shares_.motions().size()),
                 static_cast<Eigen::Index>(ascending.size()));
   for (std::size_t i = 0; i < ascending.size(); ++i)

@@ -56,8 +56,8 @@ class ModeMotions {
   /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_, self.rotor_modes_,
-          self.given_);
+    visit(self.shares_, self.modes_, self.points_, self.coordinates_, self.by_participation_,
+          self.rotor_modes_, self.given_);
   }
 
   /// Whether a state that was read fits this model.
@@ -70,18 +70,22 @@ class ModeMotions {
   void describe_rotor_modes(const TracePoint& point);
 
   struct Ends {
-    Vector first, last;      ///< by motion
-    double frequency = 0.0;  ///< abs(s) where the mode first exists; equal names are numbered in its order
-    double turns = 0.0;      ///< Im s over the speed of a rotor of blades, likewise; NaN without one
+    Vector first, last;       ///< by motion
+    std::int64_t begins = 0;  ///< number of points before it exists
+    /// abs(s) where it first exists. Equal names are numbered in this order, those that exist earlier first:
+    /// a mode keeps its name where another one begins.
+    double frequency = 0.0;
+    double turns = 0.0;  ///< Im s over the speed of a rotor of blades, likewise; NaN without one
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit& visit) {
-      visit(self.first, self.last, self.frequency, self.turns);
+      visit(self.first, self.last, self.begins, self.frequency, self.turns);
     }
   };
 
   EnergyShares shares_;
   std::map<std::size_t, Ends> modes_;
+  std::int64_t points_ = 0;               ///< that were appended
   std::vector<std::string> coordinates_;  ///< names; empty unless modes are named by participation
   std::map<std::size_t, std::string> by_participation_;
   std::map<std::size_t, RotorMode> rotor_modes_;

@@ -390,6 +390,12 @@ class UndampedBoundaries(VerdictTest):
 
 
 class Names(VerdictTest):
+    def test_modes_keep_their_names_where_a_column_buckles(self):
+        file = self.trace_model("slender_column")
+        names = self.info(file)["mode_names"]
+        self.assertEqual(names[:2], ["1st lag", "2nd lag"])
+        self.assertEqual(len(names), 3, "the motion back from the straight column begins there")
+
     def test_without_torsion_nothing_is_called_so(self):
         names = self.info(self.trace_model("pinned_shaft"))["mode_names"]
         self.assertTrue(all("torsion" not in name and "bending" in name for name in names), names)
