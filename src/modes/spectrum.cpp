@@ -10,6 +10,7 @@
 
 #include "core/lapack.hpp"
 #include "core/orthonormal.hpp"
+#include "core/positive_or_one.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/reduction/complex_blocks.hpp"
 
@@ -55,11 +56,15 @@ template <class Values>
 struct Equilibration {
   Vector rows, columns;
 
-  explicit Equilibration(const Values& A) {
-    const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
-    rows = A.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
-    columns = (rows.asDiagonal() * A).cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(inverse);
-  }
+  explicit Equilibration(const Values& A)
+      : rows(A.cwiseAbs().rowwise().maxCoeff().unaryExpr(&positive_or_one).cwiseInverse()),
+        columns((rows.asDiagonal() * A)
+                    .cwiseAbs()
+                    .colwise()
+                    .maxCoeff()
+                    .transpose()
+                    .unaryExpr(&positive_or_one)
+                    .cwiseInverse()) {}
   Values of(const Values& A) const { return rows.asDiagonal() * A * columns.asDiagonal(); }
 };
 

@@ -146,13 +146,10 @@ double distance_to_next(const std::vector<double>& places, const PathFrame& fram
   return INFINITY;
 }
 
-/// Whether a step is too inaccurate, or just not so, because of rounding that was not known yet. Then it is
-/// known now; otherwise steps would not grow again.
+/// Whether a step is too inaccurate because of rounding that was not known yet. Then it is known now.
 bool notices_rounding(const PathProblem& problem, const TraceOptions& options, const Step& step,
                       const Verdict& verdict, TraceState& state) {
-  constexpr double just_accurate = 0.25;  // of the accepted error: below the one that steps aim at
-  const bool may_be = verdict.kind == Verdict::Kind::inaccurate || verdict.accepted();
-  if (!may_be || verdict.track < 0 || !(verdict.error > just_accurate)) return false;
+  if (verdict.kind != Verdict::Kind::inaccurate || verdict.track < 0) return false;
   const auto index = static_cast<std::size_t>(verdict.track);
   const Track& track = step.left->tracks[index];
   const double before = known_rounding(state.frame, track);
