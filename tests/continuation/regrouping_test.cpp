@@ -117,22 +117,6 @@ TEST(Regrouping, DoesNotJoinMoreThanSixteen) {
   EXPECT_EQ(node.tracks.size(), 2U);
 }
 
-/// Three modes that move together by 0.4 h, 0.001 and 0.3 apart, and one farther away.
-TEST(Regrouping, CrowdedAreThoseCloserThanAShareOfTheWayTheyMove) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.4}, {2.001, 0.4}, {2.3, 0.4}, {4.0, -0.1}}));
-  const PathNode node = family.point(0.0, alone({2.0 * j, 2.001 * j, 2.3 * j, 4.0 * j}));
-  const auto crowd = [&](double h) {
-    std::vector<std::size_t> tracks;
-    for (const Partner& partner : crowding_partners(node, 0, h)) tracks.push_back(partner.track);
-    return tracks;
-  };
-  EXPECT_EQ(crowd(0.01), std::vector<std::size_t>{});   // the way is 0.004, four times the distance
-  EXPECT_EQ(crowd(1.0), std::vector<std::size_t>{1});   // 0.4: four hundred times
-  EXPECT_EQ(crowd(-1.0), std::vector<std::size_t>{1});  // backwards as well
-  // On a step so long that the series says nothing, the way counts as no more than the largest eigenvalue.
-  EXPECT_EQ(crowd(50.0), std::vector<std::size_t>{1});
-}
-
 /// The same mode twice is no block, because its two columns are linearly dependent.
 TEST(Regrouping, DoesNotJoinAModeWithItselfAndLeavesThePointAlone) {
   Planted family = crossing();

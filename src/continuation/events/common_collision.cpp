@@ -160,15 +160,6 @@ Meeting meeting_of_all(const Track& track, double reach) {
   return meeting;
 }
 
-bool are_hidden(const Track& track, double reach) {
-  if (track.size() < 3) return false;
-  const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
-  const Vector known = root_errors(track.functions.col(0), track.roots,
-                                   collision_rounding_margin * function_rounding(Lambda[0]));
-  const double radius = (track.roots.array() - track.roots.mean()).abs().maxCoeff();
-  return radius <= known.maxCoeff() && common_place(Lambda, rounding_of(track, Lambda).lambda, reach);
-}
-
 namespace {
 
 /// Lambda of a block from its functions.

@@ -35,8 +35,4 @@ struct PlaceOnStep {
 /// step. Empty for smaller blocks.
 std::vector<PlaceOnStep> common_collisions_on_step(const HermiteInterpolant& functions, double lambda);
 
-/// Whether a block of three or more has a collision of all its eigenvalues within `reach` and is so close to
-/// it that rounding hides them one by one.
-bool are_hidden(const Track& track, double reach);
-
 }  // namespace eigentrail

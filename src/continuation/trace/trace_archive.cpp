@@ -64,7 +64,7 @@ static void fields(Self& self, Visit& visit) {
   visit(passed, tries);
 }
 
-Members<7> archived(const StepMemory*);
+Members<6> archived(const StepMemory*);
 Members<2> archived(const ModeNumbers*);
 Members<1> archived(const ModeCopies*);
 Members<2> archived(const EndedTrack*);

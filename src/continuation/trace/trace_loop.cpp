@@ -56,10 +56,6 @@ constexpr double uncertified_error = 30.0;
 constexpr int most_joins = 12;
 /// Largest number of tracks that end at one point, before the trace does.
 constexpr int most_ended = 3;
-/// A step that ends where rounding hides eigenvalues becomes longer by this factor, at most so many times in
-/// a row. A larger factor is rejected more often, with fewer attempts a short step stays there.
-constexpr double lengthening = 4.0;
-constexpr int most_lengthenings = 8;
 /// A step towards a place of infinity covers this share of the way. A larger one lets the eigenvalue that
 /// runs there grow more on the step, and its series converge less; a smaller one costs points.
 constexpr double share_of_way_to_infinity = 0.9;
@@ -164,19 +160,6 @@ EnteringModes needed_at(const PathProblem& problem, const TraceOptions& options,
                         TraceState& state) {
   if (!state.settings.leaves_out) return {{}, 0};
   return entering_modes(problem, options.modes, node, state.result.counts);
-}
-
-/// Makes the next attempt longer where a step ends so close to a collision of many eigenvalues that rounding
-/// hides them: from there none could be followed. Returns whether it does.
-bool is_lengthened(const Step& step, TraceState& state) {
-  const double length = std::abs(step.h);
-  const bool hides = std::any_of(step.right.tracks.begin(), step.right.tracks.end(),
-                                 [&](const Track& track) { return are_hidden(track, length); });
-  if (!hides || state.steps.lengthened >= most_lengthenings) return false;
-  ++state.steps.lengthened;
-  state.origin.tried.reset();
-  state.control.restart(lengthening * length);
-  return true;
 }
 
 /// The result, with what rounding leaves unknown.
@@ -338,7 +321,6 @@ bool TraceLoop::advance() {
     if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
     if (!may_be_taken) return shorten(verdict, length);
   }
-  if (is_lengthened(*attempted.step, state_)) return true;
   StepSolver solver = steps();
   std::optional<LandedStep> landed =
       land(solver, std::move(*attempted.step), may_stay_uncertified(state_.frame, h));
@@ -553,7 +535,6 @@ void TraceLoop::move_on(Step step) {
   memory.longest_step = std::max(std::abs(step.h), forgetting * memory.longest_step);
   memory.joins = 0;
   memory.ended = 0;
-  memory.lengthened = 0;
   state_.branches.tries = 0;
   const bool grows = grows_towards_pole(frame, origin.node, step.right);
   origin.previous = std::move(origin.node.tracks);

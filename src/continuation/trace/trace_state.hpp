@@ -36,7 +36,6 @@ struct BranchPassage {
 struct StepMemory {
   int joins = 0;         ///< attempts to join blocks at the last point
   int ended = 0;         ///< tracks that ended at the last point
-  int lengthened = 0;    ///< steps from the last point that were lengthened (StepControl::restart)
   int towards_pole = 0;  ///< points in a row on which the position grew towards a pole
   CertificateRetries retries = {};
   double longest_step = 0.0;  ///< of about the last ten steps, in the coordinate along the path

@@ -10,11 +10,6 @@
 namespace eigentrail {
 namespace {
 
-/// Two eigenvalues are crowded on a step if their distance is below this share of the way that they move. A
-/// certificate that keeps them apart needs a number of factorizations of the order of the reciprocal. A
-/// larger value makes more blocks, a smaller one more expensive certificates; no result depends on it.
-constexpr double crowding = 0.02;
-
 /// Distance of a complex number from the real segment between 0 and h.
 double distance_to_step(Complex z, double h) {
   const double along = h > 0.0 ? std::clamp(z.real(), 0.0, h) : std::clamp(z.real(), h, 0.0);
@@ -171,21 +166,6 @@ std::vector<Partner> limiting_partners(const PathNode& node, std::size_t index, 
 
 namespace {
 
-/// How far the mean eigenvalue of a track moves on a step of length h.
-double movement(const Track& track, double h) {
-  return std::abs(mean_series(track.series.Lambda)[1] * h);
-}
-
-/// Magnitude of the largest eigenvalue in that chart. A track that moves farther on a step has a series that
-/// says nothing there.
-double largest_root(const PathNode& node, Chart chart) {
-  double largest = 0.0;
-  for (const Track& track : node.tracks) {
-    if (track.pair.chart == chart) largest = std::max(largest, track.roots.cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
-
 /// Smallest distance of an eigenvalue of one track from one of another.
 double gap_between(const ComplexVector& a, const ComplexVector& b) {
   double gap = INFINITY;
@@ -194,40 +174,6 @@ double gap_between(const ComplexVector& a, const ComplexVector& b) {
 }
 
 }  // namespace
-
-std::vector<Partner> crowding_partners(const PathNode& node, std::size_t index, double h) {
-  const std::vector<Track>& tracks = node.tracks;
-  const Chart chart = tracks[index].pair.chart;
-  const double farthest = largest_root(node, chart);
-  const auto way = [&](const Track& one) { return std::min(movement(one, h), farthest); };
-  std::vector<Partner> partners;
-  std::vector<bool> taken(tracks.size(), false);
-  std::vector<std::size_t> open{index};
-  taken[index] = true;
-  Eigen::Index size = tracks[index].size();
-  bool with_conjugates = false;
-  while (!open.empty()) {
-    const Track& track = tracks[open.back()];
-    open.pop_back();
-    const double limit = crowding * way(track);
-    if (meets_conjugates(node, track) && gap_between(track.roots, track.roots.conjugate()) < limit)
-      with_conjugates = true;
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (taken[i] || tracks[i].pair.chart != chart || tracks[i].pair.part != track.pair.part) continue;
-      const double gap = gap_between(track.roots, tracks[i].roots);
-      if (gap >= std::max(limit, crowding * way(tracks[i]))) continue;
-      taken[i] = true;
-      open.push_back(i);
-      partners.push_back({false, i, gap});
-      size += tracks[i].size();
-    }
-  }
-  if (with_conjugates) partners.push_back({true, index, 0.0});
-  if ((with_conjugates ? 2 : 1) * size > largest_block) return {};
-  std::sort(partners.begin(), partners.end(),
-            [](const Partner& a, const Partner& b) { return a.distance < b.distance; });
-  return partners;
-}
 
 std::optional<Partner> nearest_partner(const PathNode& node, std::size_t index) {
   const Track& track = node.tracks[index];

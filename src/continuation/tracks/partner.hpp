@@ -40,11 +40,6 @@ bool may_limit(const PathNode& node, std::size_t track, const Partner& partner);
 /// Those of find_partners that may be the reason why the series of `track` converges no farther.
 std::vector<Partner> limiting_partners(const PathNode& node, std::size_t track, double h, double reach);
 
-/// The tracks that a certificate cannot keep apart from `track` on a step of length h, by ascending distance:
-/// those closer to it, or to another one of them, than a small share of the way that their eigenvalues move.
-/// Empty if with them the block would be too large.
-std::vector<Partner> crowding_partners(const PathNode& node, std::size_t track, double h);
-
 /// The track with the eigenvalue nearest to one of `track`, or its own conjugate; the distance is that of the
 /// eigenvalues. Empty if there is none in its chart.
 std::optional<Partner> nearest_partner(const PathNode& node, std::size_t track);

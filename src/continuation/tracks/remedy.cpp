@@ -88,12 +88,7 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   }
   if (!may_join) return remedy;
   std::vector<Partner> partners;
-  // What was lost or not certified among close eigenvalues is followed together with them.
-  if (verdict.kind != Verdict::Kind::inaccurate) partners = crowding_partners(node, track, h);
-  double kept = 0.0;
-  if (!partners.empty()) {
-    for (const Partner& one : partners) kept = std::max(kept, kept_together * one.distance);
-  } else if (verdict.kind == Verdict::Kind::inaccurate && step != nullptr) {
+  if (verdict.kind == Verdict::Kind::inaccurate && step != nullptr) {
     partners = helpful_partners(problem, rules, *step, track, verdict.error,
                                 limiting_partners(node, track, h, rules.parting_reach));
   } else {
@@ -102,10 +97,7 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   }
   remedy.tried_to_join = !partners.empty();
   if (remedy.tried_to_join) {
-    if (join(problem, node, track, partners, counts)) {
-      ++remedy.changes.joined;
-      node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
-    }
+    if (join(problem, node, track, partners, counts)) ++remedy.changes.joined;
     return remedy;
   }
   const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
