@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/step/least_magnitude.hpp"
 #include "continuation/step/step_certificate.hpp"
 #include "continuation/step/step_error.hpp"
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {
@@ -93,6 +96,23 @@ Verdict check_shapes(const PathProblem& problem, const Step& step, const std::ve
   return {};
 }
 
+/// Whether the two eigenvalues of a block come so close on a step, and do not meet there, that rounding
+/// decides which is which behind it.
+bool are_exchanged_by_rounding(const PathProblem& problem, const Step& step, std::size_t i) {
+  const Track& track = step.left->tracks[i];
+  const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
+  if (track.size() != 2 || meets || track.departure) return false;
+  const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
+  const auto are_one = [&](double t) {
+    const ComplexVector functions = dense(t), roots = block_roots(functions);
+    const double errors = rounding_of_roots(track, functions, roots, problem.thresholds.rounding).sum();
+    return std::abs(roots[0] - roots[1]) <= errors;
+  };
+  ComplexMatrix halves = dense.series(0.0, dense.degree());  // of the distance, with both signs
+  halves.row(0).setZero();
+  return are_one(place_of_least_magnitude(halves)) && !(are_one(0.0) && are_one(1.0));
+}
+
 }  // namespace
 
 bool may_stay_uncertified(const PathFrame& frame, double h) {
@@ -129,6 +149,8 @@ Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOpt
     const StageTimer timer(counts.matching_seconds);
     if (Verdict shapes = check_shapes(problem, step, certified); !shapes.accepted()) return shapes;
   }
+  for (std::size_t i = 0; i < certified.size(); ++i)
+    certified[i] = certified[i] && !are_exchanged_by_rounding(problem, step, i);
   if (options.certify) verdict.certified = std::move(certified);
   return verdict;
 }
