@@ -62,18 +62,16 @@ bool equal_transposes(const std::vector<AffineTerm<Storage>>& terms, double sign
 template <class Storage>
 std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
   const auto count = [](const auto& terms) { return static_cast<int>(terms.size()); };
-  const bool symmetric = equal_transposes(pencil.C, 1.0);
-  const bool damped = !pencil.C.empty();
-  return {{"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
-          {"C",
-           "damping and gyroscopic matrix",
-           count(pencil.C),
-           {.dissipative = damped && (symmetric || !equal_transposes(pencil.C, -1.0)),
-            .gyroscopic = damped && !symmetric}},
-          {"K",
-           "stiffness matrix",
-           count(pencil.K),
-           {.conservative = true, .circulatory = !equal_transposes(pencil.K, 1.0)}}};
+  return {
+      {"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
+      {"C",
+       "damping and gyroscopic matrix",
+       count(pencil.C),
+       {.dissipative = !equal_transposes(pencil.C, -1.0), .gyroscopic = !equal_transposes(pencil.C, 1.0)}},
+      {"K",
+       "stiffness matrix",
+       count(pencil.K),
+       {.conservative = true, .circulatory = !equal_transposes(pencil.K, 1.0)}}};
 }
 
 template <class Storage>

@@ -103,6 +103,13 @@ bool agree(const Expression& a, const Expression& b, double sign, const std::vec
   });
 }
 
+/// Whether a matrix is given, but has no entries: it is absent.
+bool is_zero(const MatrixPolynomial& polynomial) {
+  return polynomial.entries.empty() &&
+         std::all_of(polynomial.coefficients.begin(), polynomial.coefficients.end(),
+                     [](const Matrix& c) { return c.isZero(0.0); });
+}
+
 /// Symmetry of all coefficients. An entry that is an expression needs its counterpart across the diagonal.
 Symmetry symmetry(const MatrixPolynomial& polynomial, const Parameters& parameters) {
   bool symmetric = true;
@@ -130,7 +137,9 @@ Symmetry symmetry(const MatrixPolynomial& polynomial, const Parameters& paramete
 MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
                            MatrixPolynomial K, MatrixPolynomial A, FamilyForm form)
     : Model([&] {
-        const auto count = [](const MatrixPolynomial& p) { return static_cast<int>(p.coefficients.size()); };
+        const auto count = [](const MatrixPolynomial& p) {
+          return is_zero(p) ? 0 : static_cast<int>(p.coefficients.size());
+        };
         if (form == FamilyForm::first_order) {
           description.effects = {
               {"M", "mass matrix", 0, {.inertia = true}},
