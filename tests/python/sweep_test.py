@@ -85,7 +85,7 @@ class Gradients(unittest.TestCase):
         values = {name: value for name, _, value in et.engine.engine().read_scene(str(BLADE_SCENE)).parameters}
         for name in names:
             h = self.STEP * abs(values[name])
-            low, high = (value_of(et.trace(BLADE_SCENE, tolerance=1e-11, **{name: values[name] + h * sign})) for sign in (-1, 1))
+            low, high = (value_of(et.trace(BLADE_SCENE, tolerance=1e-12, **{name: values[name] + h * sign})) for sign in (-1, 1))
             yield name, (high - low) / (2 * h)
 
     def test_of_a_flutter_point(self):

@@ -16,8 +16,6 @@ namespace {
 /// Largest error of a block, as a share of that of the single mode, at which the block is worth its cost.
 /// With order 3 the step grows with the eighth root of the error, 1 / 0.05^(1/8) = 1.45 times.
 constexpr double worthwhile = 0.05;
-/// The same where steps have shrunk: towards a meeting they would shrink further, and a block ends that.
-constexpr double worthwhile_where_shrunk = 0.5;
 /// Single modes with at least this share of the accepted error limit the step.
 constexpr double limiting_error = 0.1;
 /// As `worthwhile`, for the change to the other chart, which has no extra cost.
@@ -68,7 +66,6 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
   const double scale = std::max(there.roots.cwiseAbs().mean(), problem.reference(there.pair.chart));
   const double accepted = accepted_share * rules.tolerance * scale;
   const double length = std::abs(step.h);
-  const double gain = rules.has_shrunk(length) ? worthwhile_where_shrunk : worthwhile;
   const Eigen::Index largest = length < much_shrinking * rules.longest_step ? most_together
                                : rules.has_shrunk(length)                   ? 6
                                                                             : 2;
@@ -82,7 +79,7 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
     chosen.push_back(candidate);
     const double together =
         error_as_block(*step.left, step.right, track, chosen, step.h, least_relative_gap * scale);
-    if (together <= gain * error * accepted) return chosen;
+    if (together <= worthwhile * error * accepted) return chosen;
   }
   return {};
 }

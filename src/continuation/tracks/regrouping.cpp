@@ -231,8 +231,19 @@ std::vector<std::vector<int>> by_label(const std::vector<int>& labels) {
   return result;
 }
 
-/// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they are
-/// connected by meetings within the reach of a step to either side.
+/// Index of the conjugate of every root of a real block; of the root itself in others.
+std::vector<int> conjugates_of(const Track& track) {
+  std::vector<int> conjugates(static_cast<std::size_t>(track.size()));
+  for (Eigen::Index i = 0; i < track.size(); ++i) {
+    Eigen::Index j = i;
+    if (track.pair.is_real) (track.roots.array() - std::conj(track.roots[i])).abs().minCoeff(&j);
+    conjugates[static_cast<std::size_t>(i)] = static_cast<int>(j);
+  }
+  return conjugates;
+}
+
+/// Groups of the eigenvalues of a block, as lists of indices. Two belong to the same group if they, or their
+/// conjugates, are connected by meetings within the reach of a step to either side.
 std::vector<std::vector<int>> groups(const Track& track, double reference, double h, double reach) {
   const Eigen::Index k = track.size();
   std::vector<int> group(static_cast<std::size_t>(k));
@@ -241,6 +252,10 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
   for (const Complex root : track.roots) series.push_back(root_series(track.functions, root));
   const double limit = reach * std::abs(h);
   const double equal = rounding_of_eigenvalues(track, reference);
+  const std::vector<int> conjugates = conjugates_of(track);
+  const auto unite = [&group](std::size_t i, std::size_t j) {
+    std::replace(group.begin(), group.end(), int(group[i]), int(group[j]));
+  };
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       const auto& a = series[static_cast<std::size_t>(i)];
@@ -251,9 +266,9 @@ std::vector<std::vector<int>> groups(const Track& track, double reference, doubl
       const bool linked = !apart || meeting_distance(a, b, 0.0, h, limit, Doubtful::counts) < limit ||
                           meeting_distance(a, b, 0.0, -h, limit, Doubtful::counts) < limit;
       if (!linked) continue;
-      const int from = group[static_cast<std::size_t>(i)];
-      const int to = group[static_cast<std::size_t>(j)];
-      std::replace(group.begin(), group.end(), from, to);
+      const auto first = static_cast<std::size_t>(i), second = static_cast<std::size_t>(j);
+      unite(first, second);
+      unite(static_cast<std::size_t>(conjugates[first]), static_cast<std::size_t>(conjugates[second]));
     }
   }
   return by_label(group);
@@ -282,33 +297,14 @@ std::vector<std::vector<int>> with_inseparable(const Track& track, std::vector<s
   return groups;
 }
 
-/// Unites the groups of a real block that rounding alone tells from their mirror images: what is together
-/// with an eigenvalue is together with its conjugate as well where the conjugates are together.
-std::vector<std::vector<int>> with_mirrored(const Track& track, const std::vector<std::vector<int>>& groups) {
-  if (!track.pair.is_real || groups.size() < 2) return groups;
-  std::vector<int> label(static_cast<std::size_t>(track.size()));
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const int i : groups[g]) label[static_cast<std::size_t>(i)] = static_cast<int>(g);
-  }
-  const auto label_of_conjugate = [&](int i) {
-    Eigen::Index j = 0;
-    (track.roots.array() - std::conj(track.roots[i])).abs().minCoeff(&j);
-    return label[static_cast<std::size_t>(j)];
-  };
-  for (const std::vector<int>& members : groups) {
-    for (const int i : members)
-      std::replace(label.begin(), label.end(), label_of_conjugate(i), label_of_conjugate(members.front()));
-  }
-  return by_label(label);
-}
-
 /// Groups of the eigenvalues of a block by their errors as single modes: each with less than the accepted
-/// error by itself, and all others as one block.
-std::vector<std::vector<int>> without_bystanders(const Vector& errors, double accepted) {
+/// error by itself, and all others as one block. Conjugates have the same error but for rounding.
+std::vector<std::vector<int>> without_bystanders(const Vector& errors, const std::vector<int>& conjugates,
+                                                 double accepted) {
   std::vector<std::vector<int>> members;
   std::vector<int> rest;
   for (Eigen::Index i = 0; i < errors.size(); ++i) {
-    if (errors[i] < accepted) {
+    if (std::max(errors[i], errors[conjugates[static_cast<std::size_t>(i)]]) < accepted) {
       members.push_back({static_cast<int>(i)});
     } else {
       rest.push_back(static_cast<int>(i));
@@ -430,9 +426,9 @@ void part(const PathProblem& problem, const PathNode* left, PathNode& node, doub
         // Errors on the next step, which may be longer: they grow like the length to the power 2 order + 2.
         const double growth = std::pow(std::abs(h / last_step), 2.0 * problem.order + 2.0);
         members = without_bystanders(growth * errors_as_singles(problem, *left, node, i, last_step),
-                                     share * rules.accepted);
+                                     conjugates_of(track), share * rules.accepted);
       }
-      members = with_mirrored(track, with_inseparable(track, std::move(members)));
+      members = with_inseparable(track, std::move(members));
       if (members.size() > 1 && are_told_apart(track, members, reference))
         parts = parts_of(problem, node, track, members, counts);
     }
