@@ -111,14 +111,14 @@ void ModeMotions::append(const TracePoint& point) {
     shapes.col(static_cast<Eigen::Index>(i)) = point.modes[i].shape;
   const Matrix shares = shares_.of(M, x, shapes);
   const double speed = blade_rotor_speed(model_->description(), point.node.path.parameters.col(0));
+  const auto begins = static_cast<std::int64_t>(modes_.size());
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
     const Vector share = shares.col(static_cast<Eigen::Index>(i));
     const auto [mode, is_new] = modes_.try_emplace(static_cast<std::size_t>(point.modes[i].mode));
     if (is_new)
-      mode->second = {share, share, points_, std::abs(point.modes[i].s), point.modes[i].s.imag() / speed};
+      mode->second = {share, share, begins, std::abs(point.modes[i].s), point.modes[i].s.imag() / speed};
     mode->second.last = share;
   }
-  ++points_;
 }
 
 void ModeMotions::give_names(const std::vector<GivenName>& names, const TracePoint& first,

@@ -56,8 +56,8 @@ class ModeMotions {
   /// Visits the members that are saved with the state of a trace.
   template <class Self, class Visit>
   static void fields(Self& self, Visit& visit) {
-    visit(self.shares_, self.modes_, self.points_, self.coordinates_, self.by_participation_,
-          self.rotor_modes_, self.given_);
+    visit(self.shares_, self.modes_, self.coordinates_, self.by_participation_, self.rotor_modes_,
+          self.given_);
   }
 
   /// Whether a state that was read fits this model.
@@ -71,7 +71,7 @@ class ModeMotions {
 
   struct Ends {
     Vector first, last;       ///< by motion
-    std::int64_t begins = 0;  ///< number of points before it exists
+    std::int64_t begins = 0;  ///< number of modes before it exists
     /// abs(s) where it first exists. Equal names are numbered in this order, those that exist earlier first:
     /// a mode keeps its name where another one begins.
     double frequency = 0.0;
@@ -85,7 +85,6 @@ class ModeMotions {
 
   EnergyShares shares_;
   std::map<std::size_t, Ends> modes_;
-  std::int64_t points_ = 0;               ///< that were appended
   std::vector<std::string> coordinates_;  ///< names; empty unless modes are named by participation
   std::map<std::size_t, std::string> by_participation_;
   std::map<std::size_t, RotorMode> rotor_modes_;

@@ -140,6 +140,11 @@ TEST(PolynomialRoots, LeadingZerosLowerTheDegree) {
   ComplexVector c = ComplexVector::Zero(6);
   c.head(3) = coefficients({Complex(2.0), Complex(0.0, 3.0)});
   EXPECT_LT(matched_distance({Complex(2.0), Complex(0.0, 3.0)}, polynomial_roots(c)), tolerance);
+  // One that rounding leaves adds roots far away, and moves none.
+  c[4] = 1e-18;
+  std::vector<Complex> near = polynomial_roots(c);
+  std::erase_if(near, [](Complex root) { return std::abs(root) > 1e8; });
+  EXPECT_LT(matched_distance({Complex(2.0), Complex(0.0, 3.0)}, near), tolerance);
 }
 
 TEST(PolynomialRoots, DoNotDependOnTheUnit) {

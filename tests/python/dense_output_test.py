@@ -77,7 +77,7 @@ class HardOnes(AgainstEval):
         loci = self.compare(scene)
         functions = {int(count) for row in loci.dense_block.values
                      for count in np.unique(row[row >= 0], return_counts=True)[1]}
-        self.assertLessEqual(sizes, {count if count < 3 else round(count**0.5) for count in functions})
+        self.assertEqual({count if count < 3 else round(count**0.5) for count in functions}, sizes)
         self.assertEqual(set(loci.dense_chart.values.ravel().tolist()) - {-1}, charts)
 
 

@@ -75,7 +75,7 @@ class RandomFamilies(VerdictTest):
                 self.assertEqual(self.events(file, "flutter", "divergence", "collision", "branch_point"), [])
                 self.assertEqual(self.ranges(file), [("marginal", 5.0, -2.4)])
                 for event in self.events(file, "crossing"):
-                    first, second = (int(mode) for mode in event["modes"].split(";")[:2])
+                    first, second = (f"mode {mode}" for mode in event["modes"].split(";")[:2])
                     at = {mode: s for mode, _, s in self.eval_rows(file, [float(event["parameter"])])}
                     self.assertLess(abs(at[first] - at[second]), 1e-5 * abs(at[first]))
 

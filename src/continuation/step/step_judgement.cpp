@@ -149,9 +149,11 @@ Verdict judge(const PathProblem& problem, const PathFrame& frame, const TraceOpt
     const StageTimer timer(counts.matching_seconds);
     if (Verdict shapes = check_shapes(problem, step, certified); !shapes.accepted()) return shapes;
   }
-  for (std::size_t i = 0; i < certified.size(); ++i)
-    certified[i] = certified[i] && !are_exchanged_by_rounding(problem, step, i);
-  if (options.certify) verdict.certified = std::move(certified);
+  if (options.certify) {
+    for (std::size_t i = 0; i < certified.size(); ++i)
+      certified[i] = certified[i] && !are_exchanged_by_rounding(problem, step, i);
+    verdict.certified = std::move(certified);
+  }
   return verdict;
 }
 
