@@ -69,6 +69,9 @@ void visit_members(Self& self, Visit& visit) {
   } else if constexpr (count == 7) {
     auto& [a, b, c, d, e, f, g] = self;
     visit(a, b, c, d, e, f, g);
+  } else if constexpr (count == 13) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = self;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m);
   } else if constexpr (count == 14) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = self;
     visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);

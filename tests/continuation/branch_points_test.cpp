@@ -42,7 +42,7 @@ struct OnPath {
         reduced(reduce_at(problem, p, {problem.model.initial_guess(parameters_at(problem, p)), Vector()},
                           Matrix(), counts)),
         node(differentiate_point(problem, reduced, counts).value_or(PathNode{})),
-        log{events, dismissed, frame.range, problem.thresholds},
+        log{events, frame.range, problem.thresholds},
         search{points, setting.options, criteria, log, 4} {
     frame.direction = setting.options.to > setting.options.from ? 1.0 : -1.0;
     frame.largest_position = reduced.equilibrium.x.norm();
@@ -64,7 +64,7 @@ struct OnPath {
   PathPoint reduced;
   PathNode node;
   std::vector<Criterion> criteria;
-  std::vector<Event> events, dismissed;
+  std::vector<Event> events;
   EventLog log;
   EventSearch search;
   int tries = 0;

@@ -19,11 +19,11 @@ Event event_at(EventKind kind, double p, Complex s, std::vector<int> modes, int 
 class Log : public testing::Test {
  protected:
   bool has_collision_at(const Event& zero, bool located = true) const {
-    return EventLog{events, dismissed, range, thresholds}.has_collision_at(zero, located, 1e-3);
+    return EventLog{events, range, thresholds}.has_collision_at(zero, located, 1e-3);
   }
   bool are_same(const Event& a, const Event& b) const { return are_one(a, b, 2.0, thresholds.event); }
 
-  std::vector<Event> events, dismissed;
+  std::vector<Event> events;
   PathRange range{0, -1.0, 1.0};
   Thresholds thresholds;
 };
@@ -43,7 +43,7 @@ TEST_F(Log, WhatRoundingPutsBesideTheRangeIsAtItsEnd) {
   found.events = {event_at(EventKind::crossing, -1.0 - 1e-12, {0.0, 2.0}, {0, 1}),
                   event_at(EventKind::crossing, 1.0 + 1e-6, {0.0, 3.0}, {0, 1})};
   std::vector<std::string> notes;
-  record({events, dismissed, range, thresholds}, std::move(found), events, dismissed, notes);
+  record({events, range, thresholds}, std::move(found), events, notes);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].p, -1.0);
 }
@@ -100,20 +100,19 @@ TEST_F(Log, APairThatTouchesTheRealAxisStillPassesTheImaginaryOne) {
 
 TEST_F(Log, RecordsWhatIsNewAndOnTheRange) {
   std::vector<std::string> notes;
-  const EventLog log{events, dismissed, range, thresholds};
+  const EventLog log{events, range, thresholds};
   const Event inside = event_at(EventKind::flutter, 0.3, {0.0, 2.0}, {1});
   const Event outside = event_at(EventKind::flutter, 1.1, {0.0, 2.0}, {1});
-  record(log, {{inside, inside, outside}, {outside}, {"a note"}}, events, dismissed, notes);
+  record(log, {{inside, inside, outside}, {"a note"}}, events, notes);
   EXPECT_EQ(events.size(), 1U);
-  EXPECT_EQ(dismissed.size(), 1U);
   EXPECT_EQ(notes.size(), 1U);
 }
 
 TEST_F(Log, KnowsVeeringsByModesAndComplexPlace) {
   Event veering = event_at(EventKind::veering, 0.3, {0.0, 2.0}, {1, 2});
   veering.half_width = 1e-2;
-  dismissed = {veering};
-  const EventLog log{events, dismissed, range, thresholds};
+  events = {veering};
+  const EventLog log{events, range, thresholds};
   EXPECT_TRUE(log.knows_veering({0.30005, -1e-2}, {1, 2}));
   EXPECT_FALSE(log.knows_veering({0.30005, -1e-2}, {1, 3}));
   EXPECT_FALSE(log.knows_veering({0.3, 1.2e-2}, {1, 2}));

@@ -23,7 +23,7 @@ struct Parts {
         problem(trace_problem(*setting.model, setting.options, BasisChoice::aligned)),
         frame{PathRange{problem.traced, setting.options.from, setting.options.to}},
         points(problem, frame, counts),
-        log{events, dismissed, frame.range, problem.thresholds},
+        log{events, frame.range, problem.thresholds},
         search{points, setting.options, criteria, log, 1} {
     problem.s_ref = 1e-3;
     problem.s_max = 1e6;
@@ -79,7 +79,7 @@ struct Parts {
   PathFrame frame;
   PointSolver points;
   std::vector<Criterion> criteria;
-  std::vector<Event> events, dismissed;
+  std::vector<Event> events;
   EventLog log;
   EventSearch search;
   PathNode left;

@@ -15,7 +15,7 @@ struct PlantedSearch {
         options(options_on(from, to)),
         frame{PathRange{family.problem().traced, from, to}},
         solver(family.problem(), frame, family.counts),
-        log{events, dismissed, frame.range, family.problem().thresholds},
+        log{events, frame.range, family.problem().thresholds},
         search{solver, options, criteria, log, 1} {
     frame.direction = to > from ? 1.0 : -1.0;
   }
@@ -44,7 +44,7 @@ struct PlantedSearch {
   PathFrame frame;
   PointSolver solver;
   std::vector<Criterion> criteria = {};
-  std::vector<Event> events = {}, dismissed = {};
+  std::vector<Event> events = {};
   EventLog log;
   EventSearch search;
 };

@@ -20,7 +20,7 @@ struct Pendulum {
         problem(setting.problem()),
         frame{PathRange{problem.traced, 0.0, 1.2}},
         points(problem, frame, counts),
-        log{events, dismissed, frame.range, problem.thresholds},
+        log{events, frame.range, problem.thresholds},
         search{points, setting.options, criteria, log, 3} {
     node = differentiate_point(problem, point_from_guess(problem, p, counts), counts).value();
     frame.largest_position = 1.0;
@@ -43,7 +43,7 @@ struct Pendulum {
   PathFrame frame;
   PointSolver points;
   std::vector<Criterion> criteria;
-  std::vector<Event> events, dismissed;
+  std::vector<Event> events;
   EventLog log;
   EventSearch search;
   PathNode node;

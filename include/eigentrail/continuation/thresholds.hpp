@@ -46,9 +46,6 @@ struct VeeringThresholds {
   /// As a share of the range: largest half-width of a veering. This is a definition, not an accuracy. The
   /// test that varies the thresholds leaves it out.
   double widest = 0.01;
-  /// Largest ratio of the last term of a series to its largest term at which a root of the series is trusted;
-  /// the sum of the terms must vanish up to the same share.
-  double trusted_share = 0.02;
 };
 
 /// Whether two events are the same.
@@ -59,7 +56,8 @@ struct EventThresholds {
   /// As a share of the range: the same for a zero of Re s at a double eigenvalue and the collision there.
   /// The place of such a zero is known only to the square root of the accuracy of other zeros.
   double same_double_root = 1e-6;
-  /// As a share of the range: the same for veerings, in place and half-width. These are located to 1e-8.
+  /// As a share of the range: the same for veerings, in place and half-width. Those that the
+  /// series do not tell to this are not listed.
   double same_veering = 1e-7;
   /// Largest relative difference of the eigenvalues of one veering. They vary there like the square root of
   /// the distance, and are less accurate than the place.
@@ -113,7 +111,6 @@ struct Thresholds {
     visit("meeting.beside_axis", self.meeting.beside_axis);
     visit("meeting.on_axis", self.meeting.on_axis);
     visit("veering.widest", self.veering.widest);
-    visit("veering.trusted_share", self.veering.trusted_share);
     visit("event.same_place", self.event.same_place);
     visit("event.same_double_root", self.event.same_double_root);
     visit("event.same_veering", self.event.same_veering);

@@ -18,8 +18,6 @@ namespace eigentrail {
 namespace {
 
 using Sought = CriterionTarget::Sought;
-using RealSight = Sight<double>;
-
 /// Shares of the range: accuracy to which zeros and extrema are located. Extrema are less accurate, since the
 /// function changes with the square of the distance from them.
 constexpr double zero_resolution = 1e-12;
@@ -105,7 +103,7 @@ class CriterionWalk {
   /// will tell. passed: there is no event.
   enum class Ending { none, at_meeting, unsettled, passed };
 
-  RealSight look(double distance);
+  Sight look(double distance);
   Ending ending(const ComplexVector& series, int look) const;
   std::optional<double> move_behind_meeting(double distance, double move) const;
   void finish(double offset, double distance, int looks);
@@ -170,7 +168,7 @@ std::optional<double> CriterionWalk::move_behind_meeting(double distance, double
 }
 
 /// One Newton step from a distance from the left end.
-RealSight CriterionWalk::look(double distance) {
+Sight CriterionWalk::look(double distance) {
   ++looks_;
   const Complex expected = on_step_.member_near(member_.index, distance / step_.h);
   const bool of_pair = target_.criterion.kind == EventKind::flutter && target_.pair;
@@ -178,10 +176,10 @@ RealSight CriterionWalk::look(double distance) {
                        target_.by_product ? ModeFunction::product
                        : of_pair          ? ModeFunction::pair_mean
                                           : ModeFunction::eigenvalue);
-  if (!mode_) return {RealSight::Kind::failed};
+  if (!mode_) return {Sight::Kind::failed};
   const ComplexVector& series = mode_->series;
   ending_ = ending(series, looks_);
-  if (ending_ != Ending::none) return {RealSight::Kind::absent};
+  if (ending_ != Ending::none) return {Sight::Kind::absent};
   g_ = target_.by_product
            ? Vector(series.real())
            : criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
@@ -191,7 +189,7 @@ RealSight CriterionWalk::look(double distance) {
   const double still = rounding_of_mean() / scale * std::abs(series[1]);
   if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
     ending_ = Ending::passed;
-    return {RealSight::Kind::absent};
+    return {Sight::Kind::absent};
   }
   const RootOfSeries root = root_near_zero(is_zero ? g_ : derivative(g_));
   const bool useful = root.doubt < INFINITY && std::abs(root.offset) <= std::abs(step_.h);
@@ -200,7 +198,7 @@ RealSight CriterionWalk::look(double distance) {
   const double move = behind_meeting.value_or(newton);
   moved_ = std::abs(series[1] * move);
   const double share = (distance + move) / step_.h;
-  if (!(share > -way_outside && share < 1.0 + way_outside)) return {RealSight::Kind::failed};
+  if (!(share > -way_outside && share < 1.0 + way_outside)) return {Sight::Kind::failed};
   // A move this short is accurate enough also for a zero: the error after a Newton step is about the square
   // of the move. Not so beside a meeting on the real axis, which may be as close.
   const double range = search_.frame().coordinate_range();
@@ -209,13 +207,13 @@ RealSight CriterionWalk::look(double distance) {
   const double short_move = beside_meeting ? resolution : extremum_resolution * range;
   const bool settled =
       !behind_meeting && ((useful && root.doubt <= resolution) || std::abs(move) <= short_move);
-  return {settled ? RealSight::Kind::settled : RealSight::Kind::seen, move};
+  return {settled ? Sight::Kind::settled : Sight::Kind::seen, move};
 }
 
 bool CriterionWalk::run(double t) {
   WalkRules rules;
   rules.free_moves = 0;
-  const Walk<double> found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
+  const Walk found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
   if (found.end == WalkEnd::absent) {
     if (ending_ == Ending::at_meeting) record(0.0, false, looks_);
     return ending_ != Ending::unsettled;

@@ -36,7 +36,6 @@ double spread_at(const Event& collision, double place, double s_ref) {
 
 void append(FoundEvents more, FoundEvents& all) {
   std::move(more.events.begin(), more.events.end(), std::back_inserter(all.events));
-  std::move(more.dismissed.begin(), more.dismissed.end(), std::back_inserter(all.dismissed));
   std::move(more.notes.begin(), more.notes.end(), std::back_inserter(all.notes));
 }
 
@@ -89,14 +88,6 @@ bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) c
   });
 }
 
-bool EventLog::has_veering(Complex p, const std::vector<int>& modes) const {
-  const double place = thresholds.event.same_veering * range.length();
-  return any_event([&](const Event& event) {
-    return event.kind == EventKind::veering && event.modes == modes &&
-           std::abs(event.p - p.real()) <= place && std::abs(event.half_width - std::abs(p.imag())) <= place;
-  });
-}
-
 bool EventLog::knows_veering(Complex p, const std::vector<int>& modes) const {
   const auto is_it = [&](const Event& event) {
     const double slack = thresholds.event.known_veering_share * event.half_width +
@@ -104,8 +95,7 @@ bool EventLog::knows_veering(Complex p, const std::vector<int>& modes) const {
     return event.modes == modes && std::abs(event.p - p.real()) <= slack &&
            std::abs(event.half_width - std::abs(p.imag())) <= slack;
   };
-  return any_event(is_it) || any_of(dismissed, is_it) ||
-         (found != nullptr && any_of(found->dismissed, is_it));
+  return any_event(is_it);
 }
 
 bool EventLog::is_on_range(const Event& event) const {
@@ -114,7 +104,7 @@ bool EventLog::is_on_range(const Event& event) const {
          event.p <= std::max(range.from, range.to) + slack;
 }
 
-void record(const EventLog& log, FoundEvents found, std::vector<Event>& events, std::vector<Event>& dismissed,
+void record(const EventLog& log, FoundEvents found, std::vector<Event>& events,
             std::vector<std::string>& notes) {
   const auto [low, high] = std::minmax(log.range.from, log.range.to);
   for (Event& event : found.events) {
@@ -122,7 +112,6 @@ void record(const EventLog& log, FoundEvents found, std::vector<Event>& events, 
     event.p = std::clamp(event.p, low, high);  // by rounding it may lie outside
     events.push_back(std::move(event));
   }
-  for (Event& event : found.dismissed) dismissed.push_back(std::move(event));
   for (std::string& note : found.notes) notes.push_back(std::move(note));
 }
 

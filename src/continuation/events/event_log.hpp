@@ -13,7 +13,6 @@ namespace eigentrail {
 /// The result of a search for events.
 struct FoundEvents {
   std::vector<Event> events = {};
-  std::vector<Event> dismissed = {};    ///< located, but no events; kept so that they are not located again
   std::vector<std::string> notes = {};  ///< remarks for the user
 };
 
@@ -23,7 +22,6 @@ void append(FoundEvents more, FoundEvents& all);
 /// A view of the recorded events. Refers to the lists.
 struct EventLog {
   const std::vector<Event>& events;
-  const std::vector<Event>& dismissed;
   const PathRange& range;
   const Thresholds& thresholds;
   const FoundEvents* found = nullptr;  ///< on the present step, not yet recorded; may be null
@@ -37,11 +35,7 @@ struct EventLog {
   /// accurate. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
   bool has_collision_at(const Event& zero, bool located, double s_ref) const;
 
-  /// Whether a veering of these modes that is located at the complex parameter value p is recorded.
-  bool has_veering(Complex p, const std::vector<int>& modes) const;
-
-  /// Whether a veering of these modes, predicted at the complex parameter value p, is recorded or dismissed
-  /// already.
+  /// Whether a veering of these modes, predicted at the complex parameter value p, is recorded already.
   bool knows_veering(Complex p, const std::vector<int>& modes) const;
 
   /// Whether an event lies within the traced range, up to rounding.
@@ -52,9 +46,9 @@ struct EventLog {
   bool any_event(const Condition& holds) const;
 };
 
-/// Appends to `events` what is within the range and not recorded yet, and to the other lists what is
-/// dismissed and noted. `log` is a view of the same lists.
-void record(const EventLog& log, FoundEvents found, std::vector<Event>& events, std::vector<Event>& dismissed,
+/// Appends to `events` what is within the range and not recorded yet, and to `notes` what is noted. `log` is
+/// a view of the same events.
+void record(const EventLog& log, FoundEvents found, std::vector<Event>& events,
             std::vector<std::string>& notes);
 
 /// Whether two events are the same: of one kind, found on the same or on neighbouring steps if the path may

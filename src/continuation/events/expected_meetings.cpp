@@ -355,8 +355,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
   constexpr double margin_of_width = 1.1;
   const double widest = margin_of_width * width;
   std::vector<ExpectedMeeting> meetings;
-  const auto expect = [&](const EigenvalueBranch& a, const EigenvalueBranch& b, Complex position,
-                          const ComplexVector& at_left = {}, const ComplexVector& at_right = {}) {
+  const auto expect = [&](const EigenvalueBranch& a, const EigenvalueBranch& b, Complex position) {
     const double t = position.real() / length;
     const double off_axis = std::abs(position.imag());
     if (a.track == b.track && off_axis <= on_axis * std::abs(length)) return;
@@ -367,8 +366,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
              std::abs(other.position - std::conj(position)) <= conjugate_rounding * off_axis;
     };
     if (std::any_of(meetings.begin(), meetings.end(), mirrors)) return;
-    if (t > -behind && t < 1.0 + off_the_ends && off_axis <= widest)
-      meetings.push_back({a, b, position, at_left, at_right});
+    if (t > -behind && t < 1.0 + off_the_ends && off_axis <= widest) meetings.push_back({a, b, position});
   };
   std::vector<EigenvalueBranch> branches;
   for (std::size_t i = 0; i < left.tracks.size(); ++i) {
@@ -407,8 +405,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       const ComplexVector at_left = gap_at(left, b, left_b, a, left_a);
       const ComplexVector at_right = gap_at(right, b, right_b, a, right_a);
       const std::size_t before = meetings.size();
-      for (const Complex root : gap_roots(at_left, at_right, length, width))
-        expect(b, a, root, at_left, at_right);
+      for (const Complex root : gap_roots(at_left, at_right, length, width)) expect(b, a, root);
       if (meetings.size() > before) continue;
       const auto hint = [&, &a = a, &b = b](const PathNode& node, const ComplexVector& gap) {
         return is_singular_at(node, a, b) ? ComplexVector() : gap;

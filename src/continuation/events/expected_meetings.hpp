@@ -8,9 +8,7 @@ namespace eigentrail {
 /// A predicted meeting of the eigenvalues a and b.
 struct ExpectedMeeting {
   EigenvalueBranch a, b;
-  Complex position;  ///< distance from the left end; complex beside the real axis
-  /// Series of ((s_a - s_b) / 2)^2 at both ends; empty where not known.
-  ComplexVector discriminant_at_left = {}, discriminant_at_right = {};
+  Complex position;           ///< distance from the left end; complex beside the real axis
   double doubt = INFINITY;    ///< estimated error of the position; infinite: not known
   bool has_just_met = false;  ///< the two take part in a meeting at the left end
   /// The series at either end are no more than a hint of it.

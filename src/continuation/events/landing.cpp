@@ -42,8 +42,6 @@ constexpr int few_looks = 2;
 /// In steps: predicted meetings this close to the one that was located may lie on the same point.
 constexpr double worth_a_look = 1e-3;
 
-using LandingSight = Sight<double>;
-
 /// A veering that is narrower than places are known is a crossing: eigenvalues near zero are small
 /// differences of the stiffness, whose rounding the block does not show. As in meetings.cpp, it is one for
 /// certain where it is narrower than a tenth of that.
@@ -67,13 +65,13 @@ bool land_on_end(StepSolver& solver, Step& step) {
     if ((step.right.p - end) * side <= 0.0 || step.right.p == end) continue;
     const double p = step.left->p;
     const double guess = step.h * (end - p) / (step.right.p - p);
-    const auto look = [&](double distance) -> LandingSight {
+    const auto look = [&](double distance) -> Sight {
       AttemptedStep attempted = solver.attempt(distance);
-      if (!attempted.step) return {LandingSight::Kind::failed};
+      if (!attempted.step) return {Sight::Kind::failed};
       step = std::move(*attempted.step);
       const double miss = end - step.right.p;
       const bool there = std::abs(miss) <= on_end * std::max(range.length(), std::abs(end));
-      return {there ? LandingSight::Kind::settled : LandingSight::Kind::seen, miss / frame.speed(step.right)};
+      return {there ? Sight::Kind::settled : Sight::Kind::seen, miss / frame.speed(step.right)};
     };
     WalkRules rules;
     rules.begin = 0.0;
@@ -94,11 +92,11 @@ bool land_on_fold(StepSolver& solver, Step& step) {
   const double before = heading(frame, *step.left, step.h);
   const double behind = heading(frame, step.right, -step.h);
   if (!(before * behind < 0.0)) return true;
-  const auto look = [&](double distance) -> LandingSight {
+  const auto look = [&](double distance) -> Sight {
     AttemptedStep attempted = solver.attempt(distance);
-    if (!attempted.step) return {LandingSight::Kind::failed};
+    if (!attempted.step) return {Sight::Kind::failed};
     step = std::move(*attempted.step);
-    return {LandingSight::Kind::seen, fold_distance(frame, step.right)};
+    return {Sight::Kind::seen, fold_distance(frame, step.right)};
   };
   WalkRules rules;
   rules.resolution = landing_accuracy;
@@ -133,8 +131,8 @@ class MeetingLanding {
   Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks);
   Approach land_as_told(const ExpectedMeeting& expected);
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
-  LandingSight look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                         EigenvalueSampler& branches, double& earlier, double& rounding);
+  Sight look_from(double distance, const ExpectedMeeting& expected, bool trusting,
+                  EigenvalueSampler& branches, double& earlier, double& rounding);
   Meeting seen_from(const Track& track, const ExpectedMeeting& expected) const {
     return expected.is_of_all
                ? meeting_of_all(track, step_.h)
@@ -201,8 +199,8 @@ MeetingLanding::Approach MeetingLanding::land_as_told(const ExpectedMeeting& exp
 /// the offset of another meeting that the step passes before it, or to zero, and `rounding` to the error of
 /// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
 /// digits.
-LandingSight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                                       EigenvalueSampler& branches, double& earlier, double& rounding) {
+Sight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
+                                EigenvalueSampler& branches, double& earlier, double& rounding) {
   const double h = step_.h;
   const std::size_t index = expected.a.track;
   Track there;
@@ -210,23 +208,23 @@ LandingSight MeetingLanding::look_from(double distance, const ExpectedMeeting& e
     there = step_.right.tracks[index];
   } else {
     std::optional<SolvedPoint> point = solver_.points().follow(one_track(*step_.left, index), distance);
-    if (!point) return {LandingSight::Kind::failed};
+    if (!point) return {Sight::Kind::failed};
     there = std::move(point->node.tracks.front());
   }
   if (!expected.is_of_all) there.roots = in_order_of(branches(distance / h), there.roots);
   const Meeting meeting = seen_from(there, expected);
-  if (!meeting.found) return {LandingSight::Kind::absent};
+  if (!meeting.found) return {Sight::Kind::absent};
   rounding = meeting.rounding;
   const double move = std::abs(meeting.offset);
   const bool is_wide =
       meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
-  if (is_wide && move < near_veering * meeting.half_width) return {LandingSight::Kind::absent};
+  if (is_wide && move < near_veering * meeting.half_width) return {Sight::Kind::absent};
   const bool near = !expected.is_of_all && move <= std::max(seen_well * std::abs(h), at_point_);
   earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
   const double share = (distance + meeting.offset) / h;
   const bool trusted =
       trusting && move <= seen_well * std::abs(h) && share > seen_well && share < 1.0 && earlier == 0.0;
-  return {trusted ? LandingSight::Kind::settled : LandingSight::Kind::seen, meeting.offset};
+  return {trusted ? Sight::Kind::settled : Sight::Kind::seen, meeting.offset};
 }
 
 /// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
@@ -252,9 +250,9 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     WalkRules rules;
     const auto look = [&](double at) {
       double rounding = 0.0;
-      const LandingSight sight = look_from(at, expected, trusting, branches, earlier, rounding);
+      const Sight sight = look_from(at, expected, trusting, branches, earlier, rounding);
       rules.rounding = std::max(at_point_, rounding);
-      own_end = sight.kind == LandingSight::Kind::settled;
+      own_end = sight.kind == Sight::Kind::settled;
       return sight;
     };
     rules.resolution = resolution;
@@ -263,7 +261,7 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     rules.end = h;
     rules.slack = beyond * std::abs(h);
     rules.looks = most_looks - looks;
-    const Walk<double> found = walk(distance, rules, look);
+    const Walk found = walk(distance, rules, look);
     looks += found.looks;
     distance = found.position;
     if (found.end == WalkEnd::absent) return no_other();

@@ -132,7 +132,7 @@ class CrossingWalk {
   std::optional<Event> from(double t);
 
  private:
-  Sight<double> look(double h);
+  Sight look(double h);
   Event event_here() const;
 
   const EventSearch& search_;
@@ -145,7 +145,7 @@ class CrossingWalk {
   int looks_ = 0;
 };
 
-Sight<double> CrossingWalk::look(double h) {
+Sight CrossingWalk::look(double h) {
   const std::size_t at = nearest_sample(expected_);
   std::array<Complex, 2> slopes;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -163,7 +163,7 @@ Sight<double> CrossingWalk::look(double h) {
   const double distance = signed_difference_(s_[0], s_[1]);
   const double rate = signed_difference_.part_of(slopes[0] - slopes[1], s_[0], s_[1]);
   if (!(std::abs(rate) > 0.0)) return {};
-  return {Sight<double>::Kind::seen, -distance / rate};
+  return {Sight::Kind::seen, -distance / rate};
 }
 
 Event CrossingWalk::event_here() const {

@@ -1,52 +1,42 @@
 #include "continuation/events/veerings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <numeric>
-#include <utility>
 
-#include "continuation/events/complex_interpolant.hpp"
 #include "continuation/events/event_record.hpp"
+#include "continuation/events/exceptional_point.hpp"
 #include "continuation/events/expected_meetings.hpp"
-#include "continuation/events/veering_partners.hpp"
-#include "continuation/events/walk.hpp"
 #include "continuation/tracks/members.hpp"
-#include "continuation/tracks/regrouping.hpp"
-#include "core/matrix_series.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
-#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {
 
-using ComplexSight = Sight<Complex>;
-
-/// As a share of the range: accuracy to which exceptional points beside the axis are located.
-constexpr double resolution_share = 1e-10;
-/// In units of the resolution. Moves up to this length that no longer shrink end the walk. For half-widths up
-/// to this the error estimate does not end the walk, since the conjugate root is so close that it makes the
-/// estimate unreliable.
-constexpr double loose = 100.0;
 /// Relative increase of the largest half-width, so that a veering exactly on the limit is found.
 constexpr double limit_rounding = 1e-9;
-/// In units of the largest half-width: iterates may be this far off the axis ...
-constexpr double off_axis_on_the_way = 2.0;
-/// ... and, in units of that distance, a single move may be this long.
-constexpr double walks_as_far = 3.0;
-/// Largest number of iterations; each computes between one and five points.
-constexpr int most_rounds = 6;
-/// Iterations after which moves must shrink: the first ones use inaccurate predictions.
-constexpr int free_rounds = 2;
-/// In units of the largest distance off the axis: least distance of the points on both sides of the root.
-constexpr double least_width = 1e-6;
 /// Smallest |dp/dsigma| by which a half-width in p is converted to the path's coordinate. Near a fold, where
 /// dp/dsigma vanishes, the search would otherwise become too wide.
 constexpr double least_speed = 1e-3;
 /// Largest half-width of the search, in units of the range.
 constexpr double widest_search = 2.0;
+/// Largest number of exceptional points that are looked for from one prediction. Two modes that hardly
+/// influence each other have two close ones.
+constexpr int most_of_one_prediction = 3;
+/// In units of the largest half-width: how far iterates may go from the prediction.
+constexpr double reach_in_widths = 2.0;
+/// In steps: exceptional points farther beyond the ends of the step, and farther than they are off the axis,
+/// are left to other steps.
+constexpr double beyond_the_step = 0.1;
+/// As a share of the distance from the real axis: two roots of the discriminant closer than this are a double
+/// root within rounding, where eigenvalues of independent modes coincide.
+constexpr double double_root = 1e-5;
+/// As a share of the distance of the two eigenvalues at the real axis: how well the dense output must agree.
+constexpr double same_mode = 0.2;
+/// As a share of the range: least half-width. Narrower ones are meetings on the axis.
+constexpr double narrowest = 1e-10;
 
 /// Half-width up to which veerings are searched for, in the coordinate along the path.
 double search_width(const EventSearch& search, const PathNode& node) {
@@ -57,262 +47,280 @@ double search_width(const EventSearch& search, const PathNode& node) {
   return std::min(widest * range / std::max(speed, least_speed), widest_search * range);
 }
 
-/// Whether a power series confirms a root of the interpolant: there, the last term and the sum of all terms
-/// are at most `trusted_share` of the largest term.
-bool confirms_root(const ComplexVector& series, Complex root, double trusted_share) {
-  double largest = 0.0;
-  Complex term = 0.0;
-  Complex sum = 0.0;
-  Complex power = 1.0;
-  for (const Complex coefficient : series) {
-    term = coefficient * power;
-    sum += term;
-    largest = std::max(largest, std::abs(term));
-    power *= root;
+/// A pencil without the last two terms of series of the highest order, which are truncated; empty where none
+/// is so long.
+std::optional<ReducedPencil> shortened(const ReducedPencil& pencil) {
+  ReducedPencil shorter{pencil.M, pencil.C, pencil.K};
+  shorter.complex_sign = pencil.complex_sign;
+  bool is_truncated = false;
+  for (MatrixSeries* series : {&shorter.M, &shorter.C, &shorter.K}) {
+    if (series->size() <= max_order) continue;
+    series->resize(max_order - 1);
+    is_truncated = true;
   }
-  return std::abs(term) <= trusted_share * largest && std::abs(sum) <= trusted_share * largest;
+  return is_truncated ? std::optional(std::move(shorter)) : std::nullopt;
 }
 
-/// The discriminant from its series at both ends of a step of length h. An end close to the predicted root is
-/// left out: the walk adds points there, and points of an interpolant that nearly coincide cause rounding
-/// errors.
-ComplexInterpolant discriminant_from_ends(const ExpectedMeeting& expected, double h) {
-  constexpr double next_to = 0.02;  // share of the step
-  ComplexInterpolant discriminant;
-  const auto add = [&](double position, const ComplexVector& series) {
-    const bool far = std::abs(position - expected.position.real()) > next_to * std::abs(h);
-    if (series.size() > 0 && far) discriminant.add(position, series);
-  };
-  add(0.0, expected.discriminant_at_left);
-  add(h, expected.discriminant_at_right);
-  return discriminant;
-}
-
-/// Series of the sum of the eigenvalues of a track.
-ComplexVector sum_of_roots(const Track& track) {
-  return static_cast<double>(track.size()) * mean_series(track.series.Lambda);
-}
-
-/// Whether the corrector has converged to other modes than those that were predicted: the sum of the
-/// eigenvalues of `to` differs from the series of the sum at `from`, over a distance, by more than its
-/// truncation error.
-bool has_jumped(const PathProblem& problem, const std::vector<const Track*>& from, const Track& to,
-                double distance) {
-  constexpr double safety = 10.0;    // on the estimated truncation error
-  constexpr double no_drift = 1e-6;  // relative difference that is always allowed
-  ComplexVector trace = sum_of_roots(*from.front());
-  for (std::size_t i = 1; i < from.size(); ++i) trace += sum_of_roots(*from[i]);
-  const double step = std::abs(distance);
-  if (step == 0.0) return false;
-  const Complex expected = evaluate_series(ComplexMatrix(trace.transpose()), distance)[0];
-  const Eigen::Index last = trace.size() - 1;
-  // The larger of the last two terms, since one of them may be small by chance.
-  const double uncertain = std::pow(step, static_cast<double>(last)) *
-                           std::max(std::abs(trace[last]), std::abs(trace[last - 1]) / step);
-  const double drift = std::abs(sum_of_roots(to)[0] - expected);
-  return drift > safety * uncertain + no_drift * std::max(std::abs(expected), problem.s_ref);
-}
-
-/// Locates one predicted veering. The two eigenvalues are computed as one block at real points near the
-/// exceptional point; the complex root of their discriminant follows from its series at these points.
-class VeeringWalk {
+/// The veerings to which Newton's method for exceptional points leads from one prediction, up to `widest` off
+/// the real axis (in the coordinate along the path).
+class VeeringSearch {
  public:
-  VeeringWalk(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
-              std::vector<int> modes)
-      : search_(search), step_(step), expected_(expected), modes_(std::move(modes)) {}
+  /// Those of the log are not found again. Adds to `found`, which the log refers to.
+  VeeringSearch(const EventSearch& search, const Step& step, const ExpectedMeeting& expected,
+                const std::vector<int>& modes, double widest, FoundEvents& found)
+      : search_(search), step_(step), expected_(expected), modes_(modes), widest_(widest), found_(found) {
+    highest_.order = max_order - 1;
+  }
 
-  FoundEvents run();
+  void run() {
+    if (!go_to(expected_.position.real())) return;
+    std::vector<Complex> known = known_roots();
+    std::optional<ExceptionalPoint> point;
+    for (int i = 0; i < most_of_one_prediction; ++i) {
+      point = point ? next_to(*point, known) : from_prediction(known);
+      if (!point) break;
+      known.push_back(point->h);
+      keep(*point);
+    }
+    if (expected_.is_rough) return;
+    if (const auto mirrored = on_other_side()) keep(*mirrored);
+  }
 
  private:
-  std::optional<PathNode> as_one_block() const;
-  std::optional<PathNode> in_its_block(const PathNode& nearer, double distance) const;
-  std::optional<PathNode> joined(const TracksAt& apart, double distance) const;
-  std::optional<PathNode> follow(const TracksAt& base, double distance) const;
-  bool look_from(double where, ComplexInterpolant& discriminant);
-  ComplexSight look(Complex root);
-  Event event_at(Complex root) const;
-  bool counts(const Event& event, Complex root) const;
-  ComplexVector discriminant_at(const PathNode& node) const {
-    return discriminant_series(node.tracks.front().series.Lambda,
-                               static_cast<Eigen::Index>(expected_.a.members.size()));
+  const Track& track() const { return step_.left->tracks[expected_.a.track]; }
+  Chart chart() const { return track().pair.chart; }
+  const ReducedPencil& pencil() const { return node_->pencil.of(track().pair.part); }
+
+  /// Computes the point at a distance from the left end, or at the nearer end of the step. False if that
+  /// fails.
+  bool go_to(double distance) {
+    position_ = std::clamp(distance / step_.h, 0.0, 1.0) * step_.h;
+    node_ = node_at(position_);
+    return node_.has_value();
+  }
+
+  /// The point of the step at `position` or beyond its ends, seen from the nearer end.
+  struct FromEnd {
+    const PathNode& node;
+    double distance;
+  };
+  FromEnd from_nearer_end(double position) const {
+    const bool right = position / step_.h > 0.5;
+    return {right ? step_.right : *step_.left, position - (right ? step_.h : 0.0)};
+  }
+
+  /// Equilibrium and pencil, as series, at a distance from the left end; without modes.
+  std::optional<PathNode> node_at(double position) const {
+    const auto [nearer, distance] = from_nearer_end(position);
+    const PathPoint point = search_.solver.reduce(nearer, distance);
+    if (point.status != PointStatus::computed) return std::nullopt;
+    return differentiate_point(highest_, point, search_.solver.counts());
+  }
+
+  /// Exceptional points of these modes that the log has, as distances from the point; with those on the other
+  /// side of the axis, because a veering does not tell its side.
+  std::vector<Complex> known_roots() const {
+    std::vector<Complex> roots;
+    const double speed = search_.frame().speed(*node_);
+    const auto add = [&](const std::vector<Event>& events) {
+      for (const Event& event : events) {
+        if (event.kind != EventKind::veering || event.modes != modes_) continue;
+        const Complex h((event.p - node_->p) / speed, event.half_width / speed);
+        if (std::abs(h) > reach_in_widths * widest_ + std::abs(step_.h)) continue;
+        roots.push_back(h);
+        roots.push_back(std::conj(h));
+      }
+    };
+    add(search_.log.events);
+    if (search_.log.found != nullptr) add(search_.log.found->events);
+    return roots;
+  }
+
+  /// The mean of the two eigenvalues at a predicted distance from the left end. It is smooth there, unlike
+  /// each of them, so that the sum of their interpolants is accurate off the real axis; those of members of
+  /// larger blocks are not known there, and taken from the axis.
+  Complex mean_at_prediction(Complex distance) const {
+    const Complex t = distance / step_.h;
+    Complex sum = 0.0;
+    double count = 0.0;
+    for (const EigenvalueBranch* branch : {&expected_.a, &expected_.b}) {
+      const Eigen::Index size = step_.left->tracks[branch->track].size();
+      EigenvalueSampler sampler(*step_.left, step_.right, branch->track, step_.h);
+      for (const int member : branch->members) {
+        sum += size <= 2 ? sampler.functions()(t)[0] : sampler(position_ / step_.h)[member];
+        count += 1.0;
+      }
+    }
+    return sum / count;
+  }
+
+  /// A predicted eigenvalue at the point.
+  Complex value_of(const EigenvalueBranch& branch) const {
+    EigenvalueSampler sampler(*step_.left, step_.right, branch.track, step_.h);
+    return sampler(position_ / step_.h)[branch.members.front()];
+  }
+
+  /// Another one beside one that was found, or from the prediction once more.
+  std::optional<ExceptionalPoint> next_to(const ExceptionalPoint& point,
+                                          const std::vector<Complex>& known) const {
+    if (std::abs(point.next - point.h) < reach_in_widths * widest_) {
+      if (auto beside = found_from(point.next, point.mu, known)) return beside;
+    }
+    return from_prediction(known);
+  }
+
+  std::optional<ExceptionalPoint> from_prediction(const std::vector<Complex>& known) const {
+    const Complex h = expected_.position - position_;
+    auto point = found_from(h, mean_at_prediction(expected_.position), known);
+    return point || expected_.is_rough ? point : from_followed(h, known);
+  }
+
+  /// The exceptional point on the other side of the real axis. It is the mirror image only without damping:
+  /// with light damping it lies so close to it that a veering that is known hides its prediction.
+  std::optional<ExceptionalPoint> on_other_side() const {
+    const Complex mirrored = std::conj(expected_.position);
+    return found_from(mirrored - position_, mean_at_prediction(mirrored), {});
+  }
+
+  /// From h, with both eigenvalues followed there from the real axis.
+  std::optional<ExceptionalPoint> from_followed(Complex h, const std::vector<Complex>& known) const {
+    const auto mean = mean_at(pencil(), chart(), 0.0, h, {value_of(expected_.a), value_of(expected_.b)});
+    return mean ? found_from(h, *mean, known) : std::nullopt;
+  }
+
+  std::optional<ExceptionalPoint> found_from(Complex h, Complex mu, const std::vector<Complex>& known) const {
+    return find_exceptional_point(pencil(), chart(), h, mu, reach_in_widths * widest_, known);
+  }
+
+  /// Whether the series of the pencil are accurate enough at an exceptional point: without their last terms
+  /// it is at the same place.
+  bool is_certain(const ExceptionalPoint& point) const {
+    const auto shorter = shortened(pencil());
+    if (!shorter) return true;
+    const double same = search_.log.thresholds.event.same_veering * search_.frame().range.length();
+    const double reach = reach_in_widths * widest_;
+    const auto other = find_exceptional_point(*shorter, chart(), point.h, point.mu, reach, {});
+    return other && std::abs(other->h - point.h) * std::abs(search_.frame().speed(*node_)) <= same;
+  }
+
+  /// Adds the veering of an exceptional point, if it is one and certain.
+  void keep(const ExceptionalPoint& point) {
+    const double speed = search_.frame().speed(*node_);
+    Event event;
+    event.kind = EventKind::veering;
+    event.p = node_->p + point.h.real() * speed;
+    event.half_width = std::abs(point.h.imag() * speed);
+    const double t = (position_ + point.h.real()) / step_.h;
+    const double beyond = std::max(beyond_the_step, std::abs(point.h.imag() / step_.h));
+    const bool here = t > -beyond && t < 1.0 + beyond && search_.log.is_on_range(event);
+    const bool counts = std::abs(point.h.imag()) <= widest_ &&
+                        event.half_width >= narrowest * search_.frame().range.length() &&
+                        0.5 * std::abs(point.next - point.h) > double_root * std::abs(point.h.imag());
+    if (!here || !counts || !is_certain(point)) return;
+    const auto below = eigenvalues_below(pencil(), chart(), point);
+    if (!below) return;
+    event.modes = modes_of(*below, t);
+    if (event.modes.size() != 2) return;
+    event.s = chart_value(0.5 * ((*below)[0].mu + (*below)[1].mu), chart());
+    if (event.s.imag() < 0.0) event.s = std::conj(event.s);
+    event.node = search_.node;
+    if (search_.log.has(event)) return;
+    const ComplexMatrix shape = node_->basis.shapes((*below)[0].z, track().pair.part);
+    keep_shape(*node_, track().pair.part, shape.col(0), event);
+    keep_sensitivities_of_mean(*below, t, event);
+    found_.events.push_back(std::move(event));
+  }
+
+  /// The derivatives of the mean of both eigenvalues, as one block at the real axis. The place is complex:
+  /// what moves it is not known.
+  void keep_sensitivities_of_mean(const std::array<EigenvalueBelow, 2>& below, double t, Event& event) const {
+    const PathProblem& problem = search_.problem();
+    RunCounts& counts = search_.solver.counts();
+    InvariantPair pair;
+    pair.chart = chart();
+    pair.part = track().pair.part;
+    pair.Lambda = Eigen::Vector2cd(below[0].mu, below[1].mu).asDiagonal();
+    ComplexMatrix z(below[0].z.size(), 2);
+    z << below[0].z, below[1].z;
+    pair.Z = node_->basis.shapes(z, pair.part);
+    const auto [node, distance] = from_nearer_end(t * step_.h);
+    Prediction prediction = search_.solver.predict({node, {}}, distance);
+    prediction.pairs = {std::move(pair)};
+    const auto there = search_.solver.solve(prediction, node.basis.T[0]);
+    if (!there) return leave_unknown(problem.model.description().parameters.size(), event);
+    const auto unknown = [](const Track&, const PathNode&, const Track&) { return std::nan(""); };
+    keep_sensitivities(problem, there->point, there->node, there->node.tracks.front(), {0, 1}, unknown, event,
+                       counts);
+  }
+
+  /// The modes of two eigenvalues at a place of the step or beside it, by the dense output. Where that is not
+  /// accurate enough, by the predicted tracks computed there; empty if they do not tell either.
+  std::vector<int> modes_of(const std::array<EigenvalueBelow, 2>& below, double t) const {
+    std::vector<SeenTrack> seen;
+    for (std::size_t i = 0; i < step_.left->tracks.size(); ++i) {
+      const Track& other = step_.left->tracks[i];
+      if (other.pair.part != track().pair.part || other.pair.chart != chart()) continue;
+      EigenvalueSampler sampler(*step_.left, step_.right, i, step_.h);
+      seen.push_back({i, sampler(std::clamp(t, 0.0, 1.0))});
+    }
+    const std::vector<int> modes = nearest_modes(below, seen);
+    if (modes.size() == 2) return modes;
+    std::erase_if(seen, [&](SeenTrack& one) { return !compute(t, one); });
+    return nearest_modes(below, seen);
+  }
+
+  struct SeenTrack {
+    std::size_t track;
+    ComplexVector roots;  ///< in the order of its modes
+  };
+
+  /// Computes the eigenvalues of a predicted track at a place of the step or beside it. False for others, or
+  /// if that fails.
+  bool compute(double t, SeenTrack& seen) const {
+    if (seen.track != expected_.a.track && seen.track != expected_.b.track) return false;
+    const auto [nearer, distance] = from_nearer_end(t * step_.h);
+    const auto there = search_.solver.follow(one_track(nearer, seen.track), distance);
+    if (!there) return false;
+    seen.roots = in_order_of(seen.roots, there->node.tracks.front().roots);
+    return true;
+  }
+
+  /// The modes of the eigenvalues that are closest to the two; empty if one is not close, or both are one.
+  std::vector<int> nearest_modes(const std::array<EigenvalueBelow, 2>& below,
+                                 const std::vector<SeenTrack>& seen) const {
+    const double allowed = same_mode * std::abs(below[0].mu - below[1].mu);
+    std::vector<int> modes;
+    for (const EigenvalueBelow& one : below) {
+      double least = allowed;
+      int nearest = Track::no_mode;
+      for (const SeenTrack& candidate : seen) {
+        const std::vector<int>& names = step_.left->tracks[candidate.track].modes;
+        for (Eigen::Index k = 0; k < candidate.roots.size(); ++k) {
+          const Complex s = candidate.roots[k];
+          const double distance = std::min(std::abs(s - one.mu), std::abs(std::conj(s) - one.mu));
+          const int mode = names[static_cast<std::size_t>(k)];
+          if (distance > least || mode < 0) continue;
+          least = distance;
+          nearest = mode;
+        }
+      }
+      if (nearest == Track::no_mode) return {};
+      modes.push_back(nearest);
+    }
+    modes = sorted_modes(std::move(modes));
+    return modes[0] == modes[1] ? std::vector<int>() : modes;
   }
 
   const EventSearch& search_;
   const Step& step_;
   const ExpectedMeeting& expected_;
-  std::vector<int> modes_;
-  std::optional<PathNode> base_;   ///< the block at the real part of the predicted root
-  std::optional<PathNode> below_;  ///< the block at the last real point
-  double position_ = 0.0;          ///< of the last real point, as a distance from the left end
-  ComplexInterpolant discriminant_;
-  /// Largest distance of iterates from the real axis, and accuracy, in the coordinate along the path.
-  double widest_ = 0.0, resolution_ = 0.0;
-  int looks_ = 0, rounds_ = 0;
+  const std::vector<int>& modes_;
+  double widest_;
+  FoundEvents& found_;
+  PathProblem highest_ = search_.problem();  ///< with series of the highest order
+  double position_ = 0.0;                    ///< of the point, as a distance from the left end
+  std::optional<PathNode> node_;
 };
-
-/// The tracks at a distance; empty if the corrector failed or converged to other modes.
-std::optional<PathNode> VeeringWalk::follow(const TracksAt& base, double distance) const {
-  std::optional<SolvedPoint> there = search_.solver.follow(base, distance);
-  if (!there || has_jumped(search_.problem(), base.tracks, there->node.tracks.front(), distance))
-    return std::nullopt;
-  return std::move(there->node);
-}
-
-/// Two tracks as one block at a distance; empty as above.
-std::optional<PathNode> VeeringWalk::joined(const TracksAt& apart, double distance) const {
-  Prediction prediction = search_.solver.predict(apart, distance);
-  const InvariantPair& a = prediction.pairs[0];
-  const InvariantPair& b = prediction.pairs[1];
-  InvariantPair pair = join_pairs({&a, &b}, a.is_real || b.is_real);
-  // A real mode joined with a complex one would need the conjugate, too. Such modes cannot veer.
-  if (pair.size() != a.size() + b.size()) return std::nullopt;
-  prediction.pairs = {std::move(pair)};
-  std::optional<SolvedPoint> there = search_.solver.solve(prediction, apart.node.basis.T[0]);
-  if (!there || has_jumped(search_.problem(), apart.tracks, there->node.tracks.front(), distance))
-    return std::nullopt;
-  return std::move(there->node);
-}
-
-/// The point at a distance with the two eigenvalue branches as a block, if both belong to one track, which
-/// may have more eigenvalues.
-std::optional<PathNode> VeeringWalk::in_its_block(const PathNode& nearer, double distance) const {
-  const std::size_t index = expected_.a.track;
-  std::optional<PathNode> point = follow(one_track(nearer, index), distance);
-  if (!point) return std::nullopt;
-  const std::vector<int> members = united(expected_.a.members, expected_.b.members);
-  Track& block = point->tracks.front();
-  if (static_cast<Eigen::Index>(members.size()) == block.size()) return point;
-  // Separate the two from a larger block, where they are closer to each other than to the others.
-  EigenvalueSampler branches(*step_.left, step_.right, index, step_.h);
-  const double share = std::clamp(expected_.position.real() / step_.h, 0.0, 1.0);
-  block.roots = in_order_of(branches(share), block.roots);
-  std::optional<Track> pair = separate(search_.problem(), *point, block, members, search_.solver.counts());
-  if (!pair) return std::nullopt;
-  point->tracks = {std::move(*pair)};
-  return point;
-}
-
-/// The real point at the predicted position, with the two eigenvalue branches as one block as its only track.
-std::optional<PathNode> VeeringWalk::as_one_block() const {
-  const EigenvalueBranch& a = expected_.a;
-  const EigenvalueBranch& b = expected_.b;
-  const bool right = expected_.position.real() / step_.h > 0.5;
-  const PathNode& nearer = right ? step_.right : *step_.left;
-  const double distance = expected_.position.real() - (right ? step_.h : 0.0);
-  if (a.track == b.track) return in_its_block(nearer, distance);
-  std::vector<Track> apart;
-  for (const EigenvalueBranch* branch : {&a, &b}) {
-    std::optional<Track> track = separate(search_.problem(), nearer, nearer.tracks[branch->track],
-                                          branch->members, search_.solver.counts());
-    if (!track) return std::nullopt;
-    apart.push_back(std::move(*track));
-  }
-  return joined({nearer, {&apart[0], &apart[1]}}, distance);
-}
-
-/// Computes the block at a real place and adds its discriminant to an interpolant. False if that fails.
-bool VeeringWalk::look_from(double where, ComplexInterpolant& discriminant) {
-  const double distance = where - expected_.position.real();
-  position_ = where;
-  below_ = distance == 0.0 ? base_ : follow(all_tracks(*base_), distance);
-  ++looks_;
-  if (!below_) return false;
-  discriminant.add(where, discriminant_at(*below_));
-  return true;
-}
-
-/// One iteration: the complex root from the series at the real part of `root` and, from the second iteration
-/// on, at points on both sides of it, as far away as the root is off the axis. In the first iteration the
-/// ends of the step take the place of these points.
-ComplexSight VeeringWalk::look(Complex root) {
-  const double width = std::max(std::abs(root.imag()), least_width * widest_);
-  ComplexInterpolant around;
-  const auto look_beside = [&](double offset) {
-    // If there is no point at that distance, one may be found half as far away.
-    return look_from(root.real() + offset, around) || look_from(root.real() + 0.5 * offset, around);
-  };
-  const bool seen = rounds_ > 0 && look_beside(-width) && look_beside(width);
-  ++rounds_;
-  discriminant_ = seen ? around : discriminant_from_ends(expected_, step_.h);
-  if (!look_from(root.real(), discriminant_)) return {ComplexSight::Kind::failed};
-  const Complex refined = discriminant_.root_near(root, width);
-  const Complex move = refined - root;
-  if (!(std::abs(refined.imag()) < widest_ && std::abs(move) < walks_as_far * widest_))
-    return {ComplexSight::Kind::failed};
-  const double error = discriminant_.error_of_root(refined, resolution_);
-  const double speed = search_.frame().speed(*step_.left);
-  const Complex p(step_.left->p + refined.real() * speed, refined.imag() * speed);
-  // The veering is recorded already, or certainly too wide.
-  if (search_.log.knows_veering(p, modes_)) return {ComplexSight::Kind::absent};
-  if (std::abs(refined.imag()) - error > widest_ / off_axis_on_the_way) return {ComplexSight::Kind::absent};
-  const bool narrow = std::abs(refined.imag()) <= loose * resolution_;
-  const bool settled = !narrow && error <= resolution_;
-  return {settled ? ComplexSight::Kind::settled : ComplexSight::Kind::seen, move};
-}
-
-Event VeeringWalk::event_at(Complex root) const {
-  const double offset = root.real() - position_;
-  const double speed = search_.frame().speed(*below_);
-  const Track& there = below_->tracks.front();
-  Event event;
-  event.kind = EventKind::veering;
-  event.half_width = std::abs(root.imag() * speed);
-  event.p = below_->p + offset * speed;
-  const ComplexMatrix mean = mean_series(there.series.Lambda).transpose();
-  event.s = chart_value(evaluate_series(mean, offset)[0], there.pair.chart);
-  event.modes = modes_;
-  event.node = search_.node;
-  event.retrackings = looks_;
-  return event;
-}
-
-/// Whether the root is a veering: not a double root of the discriminant, confirmed by the series at its real
-/// part, and neither too wide nor narrower than the resolution, or than rounding may open a crossing to. The
-/// series does not confirm a root if another exceptional point is as close.
-bool VeeringWalk::counts(const Event& event, Complex root) const {
-  const VeeringThresholds& thresholds = search_.thresholds().veering;
-  const double widest = thresholds.widest * (1.0 + limit_rounding) * search_.frame().range.length();
-  const ComplexVector discriminant = discriminant_at(*below_);
-  const double error = search_.thresholds().rounding.entries * below_->tracks.front().pair.rounding;
-  return !discriminant_.is_double_root(root, thresholds.trusted_share) &&
-         confirms_root(discriminant, root - position_, thresholds.trusted_share) &&
-         event.half_width <= widest && std::abs(root.imag()) >= resolution_ &&
-         std::abs(root.imag()) * std::sqrt(std::abs(discriminant[2])) >= error;
-}
-
-FoundEvents VeeringWalk::run() {
-  base_ = as_one_block();
-  if (!base_) return {};
-  const double range = search_.frame().range.length();
-  const double speed = std::abs(search_.frame().speed(*base_));
-  widest_ =
-      off_axis_on_the_way * search_.thresholds().veering.widest * (1.0 + limit_rounding) * range / speed;
-  resolution_ = resolution_share * range / speed;
-  WalkRules rules;
-  rules.resolution = resolution_;
-  rules.rounding = loose * resolution_;
-  rules.free_moves = free_rounds;
-  rules.looks = most_rounds;
-  const auto found = walk(expected_.position, rules, [this](Complex root) { return look(root); });
-  if (found.end != WalkEnd::settled) return {};
-  const Complex root = found.position + found.move;
-  Event event = event_at(root);
-  // A veering beyond the ends of the range is not even dismissed: by knows_veering it could hide another one
-  // within the range that is close to it.
-  if (!search_.log.is_on_range(event)) return {};
-  if (!counts(event, root)) return {{}, {std::move(event)}};
-  const Track& there = below_->tracks.front();
-  std::vector<int> members(there.modes.size());
-  std::iota(members.begin(), members.end(), 0);
-  keep_shape(*below_, there, members, root.real() - position_, event);
-  RunCounts& counts = search_.solver.counts();
-  const auto stays = [](const Track&, const PathNode&, const Track&) {
-    return std::numeric_limits<double>::quiet_NaN();  // the exceptional point is at a complex parameter
-  };
-  keep_sensitivities(search_.problem(), solved_point(search_.problem(), *below_, counts), *below_, there,
-                     members, stays, event, counts);
-  return {{std::move(event)}};
-}
 
 /// The modes of both eigenvalue branches of a predicted meeting.
 std::vector<int> modes_of(const PathNode& node, const ExpectedMeeting& expected) {
@@ -328,35 +336,16 @@ std::vector<int> modes_of(const PathNode& node, const ExpectedMeeting& expected)
 
 FoundEvents find_veerings(const EventSearch& search, const Step& step) {
   const double speed = search.frame().speed(*step.left);
+  const double widest = search_width(search, *step.left);
   FoundEvents found;
   EventLog log = search.log;
   log.found = &found;
-  BelowExceptionalPoints known;
   const EventSearch own{search.solver, search.options, search.criteria, log, search.node};
-  for (const ExpectedMeeting& expected :
-       expected_beside(*step.left, step.right, step.h, search_width(search, *step.left))) {
+  for (const ExpectedMeeting& expected : expected_beside(*step.left, step.right, step.h, widest)) {
     const std::vector<int> modes = modes_of(*step.left, expected);
     const Complex p(step.left->p + expected.position.real() * speed, expected.position.imag() * speed);
     if (modes.size() < 2 || log.knows_veering(p, modes)) continue;
-    const double widest = search_width(search, *step.left);
-    std::vector<Event> dismissed;
-    if (!expected.is_rough) {
-      FoundEvents located = VeeringWalk(own, step, expected, modes).run();
-      std::erase_if(located.events, [&](Event& event) {
-        return !settle_by_pencil(own, step, expected, modes, widest, event);
-      });
-      dismissed = std::exchange(located.dismissed, {});
-      append(std::move(located), found);
-    }
-    VeeringsOfPencil of_pencil = find_from_pencil(own, step, expected, modes, widest, known);
-    append(std::move(of_pencil.found), found);
-    // What the series do not confirm may still be a veering, whose modes another step tells.
-    const std::vector<Event> none;
-    const EventLog untold{none, of_pencil.untold, log.range, log.thresholds};
-    std::erase_if(dismissed, [&](const Event& event) {
-      return untold.knows_veering(Complex(event.p, event.half_width), event.modes);
-    });
-    std::move(dismissed.begin(), dismissed.end(), std::back_inserter(found.dismissed));
+    VeeringSearch(own, step, expected, modes, widest, found).run();
   }
   return found;
 }

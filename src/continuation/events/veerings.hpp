@@ -7,8 +7,10 @@
 
 namespace eigentrail {
 
-/// The veerings of any two modes on a step or close to its ends. Dismissed are those that are located but too
-/// wide, too narrow, or not confirmed.
+/// The veerings of any two modes on a step or close to its ends, up to the largest half-width: where Newton's
+/// method for exceptional points (exceptional_point.hpp) leads from where the dense output predicts them.
+/// Left out are those whose place the series of the pencil do not tell: where the system changes within less
+/// than a half-width. Cost per prediction: the reduced equations at a point, and an LU per iteration.
 FoundEvents find_veerings(const EventSearch& search, const Step& step);
 
 }  // namespace eigentrail

@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eigentrail/core/types.hpp"
-
 namespace eigentrail {
 
 /// Largest number of looks at one special point. Newton's method squares the error each time, so about five
@@ -21,8 +19,7 @@ constexpr int most_looks = 8;
 /// tens of looks.
 constexpr double slowest_contraction = 0.5;
 
-/// The result of one look. Position: double, or Complex beside the real axis.
-template <class Position>
+/// The result of one look.
 struct Sight {
   enum class Kind {
     seen,     ///< `move` is an estimate of the distance to the special point
@@ -30,7 +27,7 @@ struct Sight {
     absent,   ///< the special point does not exist
     failed    ///< no estimate, for example because no point of the path was found
   } kind = Kind::failed;
-  Position move = {};
+  double move = 0.0;
 };
 
 /// How a walk ended. settled, absent, failed: as in Sight; outside: a position left the interval; wandering:
@@ -40,30 +37,29 @@ enum class WalkEnd { settled, absent, failed, outside, wandering, exhausted };
 struct WalkRules {
   double resolution = 0.0;                   ///< a move no longer than this settles the walk
   double rounding = 0.0;                     ///< so does one no longer than this that does not shrink
-  double begin = -INFINITY, end = INFINITY;  ///< interval of the real parts of positions
+  double begin = -INFINITY, end = INFINITY;  ///< interval of the positions
   double slack = 0.0;                        ///< a position up to this far beyond `end` is replaced by `end`
   int free_moves = most_looks;  ///< after this many looks, a move that does not shrink ends the walk
   int looks = most_looks;       ///< largest number of looks
 };
 
-template <class Position>
 struct Walk {
   WalkEnd end = WalkEnd::exhausted;
-  Position position = {};  ///< position of the last look, or the one outside the interval
-  Position move = {};      ///< result of the last look
+  double position = 0.0;  ///< position of the last look, or the one outside the interval
+  double move = 0.0;      ///< result of the last look
   int looks = 0;
 };
 
-/// Walks from `start`; look(position) returns a Sight<Position>.
-template <class Position, class Look>
-Walk<Position> walk(Position start, const WalkRules& rules, Look&& look) {
-  using Kind = typename Sight<Position>::Kind;
-  Walk<Position> result;
+/// Walks from `start`; look(position) returns a Sight.
+template <class Look>
+Walk walk(double start, const WalkRules& rules, Look&& look) {
+  using Kind = Sight::Kind;
+  Walk result;
   result.position = start;
   double last = INFINITY;
   while (result.looks < rules.looks) {
     ++result.looks;
-    const Sight<Position> sight = look(result.position);
+    const Sight sight = look(result.position);
     result.move = sight.move;
     if (sight.kind == Kind::failed || sight.kind == Kind::absent) {
       result.end = sight.kind == Kind::failed ? WalkEnd::failed : WalkEnd::absent;
@@ -81,7 +77,7 @@ Walk<Position> walk(Position start, const WalkRules& rules, Look&& look) {
     }
     last = length;
     result.position += sight.move;
-    const double at = std::real(result.position);
+    const double at = result.position;
     const double side = rules.end > rules.begin ? 1.0 : -1.0;
     if (!((at - rules.begin) * side > 0.0 && (at - rules.end) * side <= rules.slack)) {
       result.end = WalkEnd::outside;

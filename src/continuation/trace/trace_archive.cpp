@@ -69,7 +69,7 @@ Members<2> archived(const ModeNumbers*);
 Members<1> archived(const ModeCopies*);
 Members<2> archived(const EndedTrack*);
 Members<3> archived(const LeastKnown*);
-Members<14> archived(const TraceState*);
+Members<13> archived(const TraceState*);
 
 std::string save_state(const TraceState& state) {
   ArchiveWriter archive;
@@ -254,7 +254,7 @@ std::string misfit(const TraceState& state, const PathProblem& problem, const Tr
     if (key.first < 0 || key.second >= criteria) return "other events";
   }
   if (!fits(state.copies, state, problem.parts.get())) return "modes of equal parts that are not there";
-  for (const auto* list : {&result.events, &state.events, &state.dismissed}) {
+  for (const auto* list : {&result.events, &state.events}) {
     for (const Event& event : *list) {
       if (!is_event_kind(event.kind)) return "no kind of an event";
       for (const int mode : event.modes) {

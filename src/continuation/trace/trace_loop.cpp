@@ -180,8 +180,7 @@ TraceLoop::TraceLoop(const Model& model, const TraceOptions& options, const Trac
       problem_(trace_problem(model, options, basis)),
       points_(problem_, state_.frame, state_.result.counts),
       narrow_places_(narrow_landings(problem_, options)),
-      log_{state_.events,       state_.dismissed, state_.frame.range,
-           problem_.thresholds, nullptr,          equilibrium_moves(problem_)},
+      log_{state_.events, state_.frame.range, problem_.thresholds, nullptr, equilibrium_moves(problem_)},
       search_{points_, options_, criteria_, log_} {
   state_.result.counts.evaluations = model.new_counts();
   state_.frame.range = {problem_.traced, options.from, options.to};
@@ -592,7 +591,7 @@ bool TraceLoop::leaves_path_at(const PathNode& node) const {
 void TraceLoop::log(FoundEvents found) {
   const std::size_t before = state_.events.size();
   if (state_.result.notes.size() >= most_notes) found.notes.clear();
-  record(log_, std::move(found), state_.events, state_.dismissed, state_.result.notes);
+  record(log_, std::move(found), state_.events, state_.result.notes);
   for (std::size_t i = before; i < state_.events.size(); ++i) {
     for (Event& event : with_copies(state_.copies, state_.events[i]))
       state_.result.events.push_back(std::move(event));

@@ -60,8 +60,7 @@ struct TraceState {
   ModeNumbers numbers = {};
   ModeCopies copies = {};
   CriterionHistories histories = {};
-  std::vector<Event> events = {};     ///< of the tracks; the result has those of copies as well
-  std::vector<Event> dismissed = {};  ///< predicted veerings that turned out to be none
+  std::vector<Event> events = {};  ///< of the tracks; the result has those of copies as well
   StepMemory steps = {};
   std::vector<EndedTrack> ended = {};  ///< tracks that are looked for
   LeastKnown least_known = {};
