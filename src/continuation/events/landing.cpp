@@ -264,8 +264,7 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     const Walk found = walk(distance, rules, look);
     looks += found.looks;
     distance = found.position;
-    if (found.end == WalkEnd::absent) return no_other();
-    if (found.end == WalkEnd::outside && later && distance / h <= 0.0) return no_other();
+    if (found.end == WalkEnd::absent || (found.end == WalkEnd::outside && later)) return no_other();
     const double in_front = distance - found.move + earlier;
     if (found.end == WalkEnd::outside && may_go_back && earlier != 0.0 && in_front / h > at_left_end) {
       distance = in_front;  // the step passes another one in front of that beyond its end

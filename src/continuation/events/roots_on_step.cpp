@@ -18,6 +18,8 @@ constexpr int degree = 12;
 /// A piece is halved if one of the last two Chebyshev coefficients is more than this share of the largest
 /// one. The roots only start Newton's method, so that this accuracy suffices.
 constexpr double resolved = 1e-4;
+/// Least ratio of the distance of two eigenvalues to its change on a piece without a root nearby.
+constexpr double stay_apart = 3.0;
 /// Isolating a kink takes about thirty halvings. Many more pieces mean that the gap is rounding: the two
 /// eigenvalues coincide on the whole step, like those of rigid-body modes at s = 0.
 constexpr int most_pieces = 300;
@@ -71,21 +73,6 @@ bool RootsOnStep::of_two_has_none() const {
   return has_no_root_in(functions.series(middle, functions.degree()).row(1).transpose(), step);
 }
 
-/// Whether the difference of the two eigenvalues at five samples of the piece is everywhere more than three
-/// times its change. Then there is no root nearby.
-bool RootsOnStep::stay_apart(double begin, double end) {
-  constexpr double share = 3.0;
-  double least = INFINITY;
-  double moved = 0.0;
-  const Complex start = distance(begin);
-  for (int i = 0; i <= 4; ++i) {
-    const Complex d = distance(begin + (end - begin) * 0.25 * i);
-    least = std::min(least, std::abs(d));
-    moved = std::max(moved, std::abs(d - start));
-  }
-  return least > share * moved;
-}
-
 void RootsOnStep::add(Complex root) {
   roots_.push_back(root);
   if (first_ != nullptr && root.real() > from_) first_->found(root.real());
@@ -94,7 +81,7 @@ void RootsOnStep::add(Complex root) {
 /// Adds the roots between t = begin and t = end, from left to right.
 void RootsOnStep::search(double begin, double end) {
   if (first_ != nullptr && begin > first_->up_to) return;
-  if (given_up() || stay_apart(begin, end)) return;
+  if (given_up()) return;
   ++pieces_;
   if (given_up()) return roots_.clear();
   const double length = end - begin;
@@ -102,11 +89,18 @@ void RootsOnStep::search(double begin, double end) {
     if (roots_.empty() || std::abs(begin - roots_.back()) > same_piece * smallest_piece) add(begin);
     return;
   }
+  const Complex at_begin = distance(begin);
+  double least = std::abs(at_begin);
+  double moved = 0.0;
   const auto gap = [&](double u) {
     const Complex d = distance(begin + u * length);
+    least = std::min(least, std::abs(d));
+    moved = std::max(moved, std::abs(d - at_begin));
     return 0.25 * d * d;
   };
   const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
+  // Where the distance is everywhere more than a few times its change, there is no root nearby.
+  if (least > stay_apart * moved) return;
   if (std::sqrt(coefficients.cwiseAbs().maxCoeff()) <= sampler_.resolution_at(begin + 0.5 * length, a_, b_))
     return;
   if (coefficients.tail(2).cwiseAbs().maxCoeff() > resolved * coefficients.cwiseAbs().maxCoeff()) {

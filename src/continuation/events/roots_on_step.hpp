@@ -61,7 +61,6 @@ class RootsOnStep {
     return roots[a_] - roots[b_];
   }
   bool of_two_has_none() const;
-  bool stay_apart(double begin, double end);
   bool given_up() const;
   Rectangle looked_at(double length) const;
   double farthest_off_axis(double length) const;
