@@ -98,6 +98,8 @@ void RootsOnStep::search(double begin, double end) {
     moved = std::max(moved, std::abs(d - at_begin));
     return 0.25 * d * d;
   };
+  // From left to right first: eigenvalues are told apart by those of the nearest place before.
+  for (const double u : {0.25, 0.5, 0.75, 1.0}) gap(u);
   const ComplexVector coefficients = chebyshev_coefficients(gap, degree);
   // Where the distance is everywhere more than a few times its change, there is no root nearby.
   if (least > stay_apart * moved) return;
