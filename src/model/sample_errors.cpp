@@ -55,22 +55,23 @@ struct RoughPart {
   double freedom = 1.0;  ///< share of the variance that is left
 };
 
-RoughPart rough_part(const SamplePiece& piece, double n_entries) {
+RoughPart rough_part(const SamplePiece& piece, Eigen::Index n_entries) {
   const auto n = static_cast<Eigen::Index>(piece.size());
-  const Eigen::Index high = std::max<Eigen::Index>(2, n / 4);
+  // One entry alone has no others that show what is smooth; its highest coefficients are so least.
+  const Eigen::Index high = n_entries == 1 ? 2 : std::max<Eigen::Index>(2, n / 4);
   const Matrix polynomials = products_with_polynomials(piece.interpolant);
   const Matrix coefficients = piece.reduced * polynomials;
   Eigen::JacobiSVD<Matrix> lower(coefficients.leftCols(n - high), Eigen::ComputeThinU | Eigen::ComputeThinV);
   constexpr double same_direction = 1e-13;
   lower.setThreshold(same_direction);
-  // With more directions than half of the coefficients, those of errors that are not smooth are among them.
-  const Eigen::Index main = std::min((n - high) / 2, lower.rank());
+  // With more directions than half of the coefficients, those of errors that are not smooth are among them;
+  // as many as there are entries leave nothing.
+  const Eigen::Index main = std::min({(n - high) / 2, lower.rank(), n_entries - 1});
   const Matrix part = lower.matrixV().leftCols(main) *
                       lower.singularValues().head(main).cwiseInverse().asDiagonal() *
                       lower.matrixU().leftCols(main).transpose() * coefficients.rightCols(high);
-  constexpr double least_freedom = 0.05;
   return {polynomials.rightCols(high) - polynomials.leftCols(n - high) * part,
-          std::max(least_freedom, 1.0 - static_cast<double>(main) / n_entries)};
+          1.0 - static_cast<double>(main) / static_cast<double>(n_entries)};
 }
 
 bool varies(const PencilSamples& samples, const SamplePiece& piece, Eigen::Index row, Eigen::Index column) {
@@ -79,6 +80,15 @@ bool varies(const PencilSamples& samples, const SamplePiece& piece, Eigen::Index
     if (samples.at(piece.first + i)(row, column) != first) return true;
   }
   return false;
+}
+
+Eigen::Index varying_entries(const PencilSamples& samples, const SamplePiece& piece) {
+  if (samples.is_constant()) return 0;
+  Eigen::Index count = 0;
+  for (Eigen::Index j = 0; j < samples.at(0).cols(); ++j) {
+    for (Eigen::Index i = 0; i < samples.at(0).rows(); ++i) count += varies(samples, piece, i, j) ? 1 : 0;
+  }
+  return count;
 }
 
 double median(std::vector<double> list) {
@@ -171,10 +181,8 @@ InterpolationErrors::InterpolationErrors(int parameter, const std::vector<double
   for (const SamplePiece& piece : pieces_) {
     std::array<Matrix, 3>& all = variances_.emplace_back();
     if (piece.size() < fewest_for_noise || piece.reduced.rows() == 0) continue;
-    double n_entries = 0.0;
-    for (const PencilSamples& one : samples_) {
-      if (!one.is_constant()) n_entries += static_cast<double>(one.at(0).size());
-    }
+    Eigen::Index n_entries = 0;
+    for (const PencilSamples& one : samples_) n_entries += varying_entries(one, piece);
     const RoughPart rough = rough_part(piece, n_entries);
     for (std::size_t i = 0; i < 3; ++i) all[i] = entry_variances(samples_[i], piece, rough);
   }

@@ -50,7 +50,7 @@ struct SampleBounds {
 };
 
 /// How the error between two samples is estimated. The numbers were calibrated on families in closed form
-/// (docs/developers/accuracy.md, Errors of samples).
+/// (docs/developers/accuracy.md, Errors of samples); a test varies each by three.
 struct SampleErrorOptions {
   /// Interpolants of one degree more and less differ by about the error; it is multiplied by this.
   double safety = 3.4;
@@ -68,7 +68,7 @@ struct SampleErrorOptions {
   double leave_one_out = 10.0;
   /// Errors of samples that do not depend smoothly on the parameter count with this factor times their
   /// standard deviation on the whole range,
-  double deviations = 10.0;
+  double deviations = 5.0;
   /// or, if that is less, with this factor times the root mean square of leave-one-out errors nearby.
   double deviations_nearby = 4.0;
 };
