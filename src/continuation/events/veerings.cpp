@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/exceptional_point.hpp"
