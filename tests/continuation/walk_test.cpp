@@ -75,9 +75,7 @@ TEST(Walk, EndsWhereALookSaysSo) {
   for (const auto& [kind, end] :
        {std::pair(Kind::absent, WalkEnd::absent), std::pair(Kind::failed, WalkEnd::failed),
         std::pair(Kind::settled, WalkEnd::settled)}) {
-    const Walk found = walk(3.0, rules_of(0.0), [kind = kind](double) {
-      return Sight{kind, 0.25};
-    });
+    const Walk found = walk(3.0, rules_of(0.0), [kind = kind](double) { return Sight{kind, 0.25}; });
     EXPECT_EQ(found.end, end);
     EXPECT_EQ(found.looks, 1);
     EXPECT_EQ(found.position, 3.0);
@@ -86,9 +84,7 @@ TEST(Walk, EndsWhereALookSaysSo) {
 
 /// For comparison: without an interval the same method diverges from a start where the slope is small.
 TEST(Walk, WithoutAnIntervalNewtonsMethodRunsAway) {
-  const auto arctangent = [](double x) {
-    return Sight{Sight::Kind::seen, -std::atan(x) * (1.0 + x * x)};
-  };
+  const auto arctangent = [](double x) { return Sight{Sight::Kind::seen, -std::atan(x) * (1.0 + x * x)}; };
   EXPECT_NE(walk(2.0, rules_of(1e-12), arctangent).end, WalkEnd::settled);
   WalkRules rules = rules_of(1e-12);
   rules.begin = -3.0;
