@@ -18,6 +18,7 @@ namespace eigentrail {
 namespace {
 
 using Sought = CriterionTarget::Sought;
+
 /// Shares of the range: accuracy to which zeros and extrema are located. Extrema are less accurate, since the
 /// function changes with the square of the distance from them.
 constexpr double zero_resolution = 1e-12;

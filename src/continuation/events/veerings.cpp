@@ -90,11 +90,14 @@ class VeeringSearch {
   Chart chart() const { return track().pair.chart; }
   const ReducedPencil& pencil() const { return node_->pencil.of(track().pair.part); }
 
-  /// Computes the point at a distance from the left end, or at the nearer end of the step. False if that
-  /// fails.
+  /// Computes equilibrium and pencil, as series, without modes, at a distance from the left end, or at the
+  /// nearer end of the step. False if that fails.
   bool go_to(double distance) {
     position_ = std::clamp(distance / step_.h, 0.0, 1.0) * step_.h;
-    node_ = node_at(position_);
+    const auto [nearer, beyond] = from_nearer_end(position_);
+    const PathPoint point = search_.solver.reduce(nearer, beyond);
+    if (point.status == PointStatus::computed)
+      node_ = differentiate_point(highest_, point, search_.solver.counts());
     return node_.has_value();
   }
 
@@ -106,14 +109,6 @@ class VeeringSearch {
   FromEnd from_nearer_end(double position) const {
     const bool right = position / step_.h > 0.5;
     return {right ? step_.right : *step_.left, position - (right ? step_.h : 0.0)};
-  }
-
-  /// Equilibrium and pencil, as series, at a distance from the left end; without modes.
-  std::optional<PathNode> node_at(double position) const {
-    const auto [nearer, distance] = from_nearer_end(position);
-    const PathPoint point = search_.solver.reduce(nearer, distance);
-    if (point.status != PointStatus::computed) return std::nullopt;
-    return differentiate_point(highest_, point, search_.solver.counts());
   }
 
   /// Exceptional points of these modes that the log has, as distances from the point; with those on the other
