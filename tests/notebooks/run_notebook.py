@@ -25,6 +25,7 @@ os.environ.update(JUPYTER_PATH=_home.name, IPYTHONDIR=_home.name, MPLCONFIGDIR=_
                   JUPYTER_RUNTIME_DIR=_home.name)
 
 import nbformat
+from jupyter_client import AsyncKernelManager
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 
@@ -57,8 +58,9 @@ def main():
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)
     check_committed(notebook.cells)
-    client = NotebookClient(notebook, timeout=TIME_LIMIT, kernel_name="python3",
-                            resources={"metadata": {"path": path.parent}})
+    # By files: a port that is free when the manager looks may be taken when the kernel binds it.
+    manager = AsyncKernelManager(kernel_name="python3", transport="ipc", ip=str(pathlib.Path(_home.name) / "kernel"))
+    client = NotebookClient(notebook, km=manager, timeout=TIME_LIMIT, resources={"metadata": {"path": path.parent}})
     try:
         client.execute()
     except CellExecutionError as error:
