@@ -98,7 +98,7 @@ std::optional<long> whole_number_of(std::string_view word) {
 bool is_identifier(std::string_view name) {
   const auto word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-         std::all_of(name.begin(), name.end(), word);
+         std::ranges::all_of(name, word);
 }
 
 int printed_digits(std::string_view word) {

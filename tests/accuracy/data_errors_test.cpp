@@ -14,7 +14,7 @@
 #include "support/sampled.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::data_errors_test {
 namespace {
 
 constexpr Eigen::Index size = 6;
@@ -302,4 +302,4 @@ TEST(DataErrors, ModelsWithoutDataHaveNone) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::data_errors_test

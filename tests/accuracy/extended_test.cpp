@@ -4,7 +4,7 @@
 
 #include "eigentrail/scene/expression.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::extended_test {
 namespace {
 
 /// A few units in the last of 113 bits.
@@ -52,4 +52,4 @@ TEST(Extended, ExpressionsOfAScene) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::extended_test

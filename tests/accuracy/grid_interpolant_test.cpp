@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eigentrail::test {
+namespace eigentrail::test::grid_interpolant_test {
 namespace {
 
 Complex function(double p) {
@@ -61,4 +61,4 @@ TEST(GridInterpolant, RefusesTooFewPoints) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::grid_interpolant_test

@@ -9,7 +9,7 @@
 #include "eigentrail/modes/spectrum.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::reference_test {
 namespace {
 
 /// Closed forms and references are rounded some tens of times each, to 1e-34.
@@ -196,4 +196,4 @@ TEST(Reference, SaysWhenAModelHasNoExtendedPrecision) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::reference_test

@@ -6,7 +6,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::study_test {
 namespace {
 
 constexpr int samples = 60;
@@ -190,4 +190,4 @@ TEST(StudyOptions, EveryFaultIsTold) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::study_test

@@ -12,7 +12,7 @@
 #include "support/sampled.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::suggest_test {
 namespace {
 
 constexpr Eigen::Index size = 4;
@@ -157,4 +157,4 @@ TEST(SuggestedSamples, NeedSamplesAndMoreThanOne) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::suggest_test

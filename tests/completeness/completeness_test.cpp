@@ -6,7 +6,7 @@
 #include "completeness/discrepancies.hpp"
 #include "completeness/few_modes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::completeness_test {
 namespace {
 
 class RandomFamilyTrace : public testing::TestWithParam<int> {};
@@ -60,4 +60,4 @@ INSTANTIATE_TEST_SUITE_P(Seeds, FewModesOfRandomFamily,
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::completeness_test

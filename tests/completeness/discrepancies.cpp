@@ -10,7 +10,6 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double same_place = 1e-6;  ///< of the range
 constexpr double at_once = 1e-9;     ///< of the range, between a collision and a divergence
 constexpr double on_axis = 1e-6;     ///< |Im s| / |s| of a collision on the real axis
 

@@ -10,6 +10,8 @@
 
 namespace eigentrail::test {
 
+constexpr double same_place = 1e-6;  ///< of the range
+
 struct Discrepancy {
   std::string what;  ///< "missing flutter", "invented collision", "direction of divergence", ...
   double p = 0.0;
@@ -21,7 +23,7 @@ struct Traced {
   double from = 0.0, to = 0.0, reached = 0.0;
 };
 
-/// Events that only one side has. They are the same within 1e-6 of the range. Events this close to an end of
+/// Events that only one side has. They are the same within `same_place`. Events this close to an end of
 /// the trace or to a place where the reference is undecided may be there or not. Veerings and extrema are not
 /// compared. Crossings, and collisions off the real axis, do not happen in random families.
 std::vector<Discrepancy> find_discrepancies(const ReferenceEvents& reference,

@@ -17,7 +17,7 @@ constexpr double widest = 0.01;       ///< half-width of a veering, of the range
 constexpr double clear_of = 1e-7;     ///< of the range: narrower ones may count as collisions
 constexpr double half_window = 0.04;  ///< of the range
 constexpr int windows = 40;
-constexpr int degree = 28;
+constexpr int discriminant_degree = 28;
 
 ComplexVector spectrum(const Family& family, Complex p) {
   const auto value = [p](const MatrixSeries& series) {
@@ -117,7 +117,7 @@ std::vector<ExceptionalPoint> exceptional_points(const Family& family, double fr
   for (int i = 0; i < windows; ++i) {
     const double middle = from + (to - from) * (i + 0.5) / windows;
     const auto discriminant = [&](double x) { return spectrum_at(family, middle + half * x).values[D]; };
-    for (const Complex root : chebyshev_roots(chebyshev_coefficients(discriminant, degree))) {
+    for (const Complex root : chebyshev_roots(chebyshev_coefficients(discriminant, discriminant_degree))) {
       const Complex p = middle + half * root;
       const bool near = std::abs(root.real()) <= 0.8 && std::abs(root.imag()) * half <= 1.5 * reach;
       if (!near || root.imag() < -1e-3) continue;

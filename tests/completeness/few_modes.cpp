@@ -5,13 +5,12 @@
 #include <sstream>
 #include <utility>
 
+#include "completeness/discrepancies.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
 
-/// As a share of the range: the distance up to which two places are one.
-constexpr double same_place = 1e-6;
 /// A trace of few modes may have so many times the points of the trace of all, and so many besides.
 constexpr int times_the_points = 3;
 constexpr int further_points = 60;

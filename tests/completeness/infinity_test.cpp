@@ -6,7 +6,7 @@
 
 #include "completeness/massless_family.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::infinity_test {
 namespace {
 
 class MasslessFamilyTrace : public testing::TestWithParam<int> {};
@@ -41,4 +41,4 @@ TEST(MasslessFamily, HasTheSpectrumOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::infinity_test

@@ -17,13 +17,13 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double quantum = 0x1p-24;  ///< of all coefficients: congruences with integers are exact
+constexpr double massless_quantum = 0x1p-24;  ///< of all coefficients: congruences with integers are exact
 
-class Generator {
+class MasslessGenerator {
  public:
   // Where several numbers are drawn, each has a statement of its own: the order of evaluation within one is
   // not specified.
-  explicit Generator(std::uint64_t seed) : engine_(seed * 7919 + 29) {}
+  explicit MasslessGenerator(std::uint64_t seed) : engine_(seed * 7919 + 29) {}
 
   MasslessFamily family(std::uint64_t seed) {
     MasslessFamily family;
@@ -46,7 +46,7 @@ class Generator {
       of.C[0].topLeftCorner(n - m, n - m) = damped + size * skew(n - m);
     }
     for (MatrixSeries* series : {&of.M, &of.C, &of.K}) {
-      for (Matrix& coefficient : *series) coefficient = (coefficient / quantum).array().round() * quantum;
+      for (Matrix& coefficient : *series) coefficient = (coefficient / massless_quantum).array().round() * massless_quantum;
     }
     family.matrices = uniform(0.0, 1.0) < 0.5 ? of : congruent(of, n);
     return family;
@@ -224,7 +224,7 @@ std::vector<double> MasslessFamily::places_of_infinity() const {
 }
 
 MasslessFamily massless_family(std::uint64_t seed) {
-  return Generator(seed).family(seed);
+  return MasslessGenerator(seed).family(seed);
 }
 
 MasslessReport check_massless(const MasslessFamily& family, bool reversed) {

@@ -19,7 +19,7 @@ constexpr double nearby = 0.35;         ///< a root this far beside [-1, 1] coun
 constexpr double narrowest = 1e-7;      ///< of the range: narrower intervals are not divided
 constexpr double split_at = 0.48713;    ///< not in the middle, where special points may be by design
 
-constexpr const char* kind_of[] = {"divergence", "flutter", "collision"};
+constexpr const char* kinds[] = {"divergence", "flutter", "collision"};
 
 class Search {
  public:
@@ -117,7 +117,7 @@ class Search {
   /// not change the sign of D.
   ReferenceEvent describe(Function f, double p, bool changes) {
     const AtParameter& here = at(p);
-    ReferenceEvent event{kind_of[f], p, Complex(0.0), 0};
+    ReferenceEvent event{kinds[f], p, Complex(0.0), 0};
     double least = std::numeric_limits<double>::infinity();
     const auto consider = [&](double size, Complex s, const char* kind) {
       if (size >= least) return;

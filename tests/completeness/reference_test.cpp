@@ -11,7 +11,7 @@
 #include "completeness/exceptional_points.hpp"
 #include "properties/planted_family.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::reference_test {
 namespace {
 
 /// s^2 + 2 damping s + stiffness, coefficients of powers of p.
@@ -300,4 +300,4 @@ TEST_F(Comparison, LeavesOutUndecidedPlaces) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::reference_test

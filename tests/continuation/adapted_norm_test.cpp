@@ -9,7 +9,7 @@
 
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::adapted_norm_test {
 namespace {
 
 /// The matrix of a linear map of vectors of that size.
@@ -99,4 +99,4 @@ TEST(AdaptedNorm, DoesNotGoBelowTheEigenvalues) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::adapted_norm_test

@@ -10,7 +10,7 @@
 #include "continuation/events/static_points.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::branch_points_test {
 namespace {
 
 constexpr double length = 1.5;
@@ -226,4 +226,4 @@ TEST(BridgeStart, LeavesRegularPointsAlone) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::branch_points_test

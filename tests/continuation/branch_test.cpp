@@ -7,7 +7,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::branch_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -319,4 +319,4 @@ TEST(BranchPoint, EigenvaluesAreContinuousAcrossIt) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::branch_test

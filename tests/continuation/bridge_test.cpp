@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace eigentrail::test {
+namespace eigentrail::test::bridge_test {
 namespace {
 
 /// x = (sin s, cos s), lambda = exp s, p = cosh s + 3 beside a parameter that does not change, to order 5.
@@ -64,4 +64,4 @@ TEST(Bridge, BetweenTwoPathsIsSeen) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::bridge_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail::test {
+namespace eigentrail::test::certificate_retries_test {
 namespace {
 
 const PathFrame frame{PathRange{0, 0.0, 10.0}};
@@ -119,4 +119,4 @@ TEST(CertificateRetries, CountsFailuresOfEarlierStepsLess) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::certificate_retries_test

@@ -20,7 +20,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::certificate_test {
 namespace {
 
 /// K = [[4 + p, eps], [eps, 4 - p]]: s^2 = -(4 +- sqrt(p^2 + eps^2)), a veering at p = 0.
@@ -577,4 +577,4 @@ TEST(Certificate, EveryStepOfATraceThatClaimsItHasTheModesOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::certificate_test

@@ -9,7 +9,7 @@
 #include "continuation/tracks/regrouping.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::checksum_test {
 namespace {
 
 /// A damped, gyroscopic and circulatory system: the pencil has no structure that the test could use.
@@ -159,4 +159,4 @@ TEST(MissingModes, WithoutTracksAreAll) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::checksum_test

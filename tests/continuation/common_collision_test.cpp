@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace eigentrail::test {
+namespace eigentrail::test::common_collision_test {
 namespace {
 
 constexpr double lambda = 1e-14;  ///< error of Lambda that is assumed
@@ -118,4 +118,4 @@ TEST(CommonCollisionsOnAStep, AreFoundBetweenItsEnds) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::common_collision_test

@@ -9,7 +9,7 @@
 #include "continuation/planted_points.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::common_null_vector_test {
 namespace {
 
 std::string coordinate_of(const Matrix& M, const Matrix& C, const Matrix& K,
@@ -137,4 +137,4 @@ TEST(NullVectorCoordinate, OfAThinRodIsItsSpin) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::common_null_vector_test

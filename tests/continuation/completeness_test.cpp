@@ -6,7 +6,7 @@
 #include "eigentrail/modes/regroup.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::completeness_test {
 namespace {
 
 Setting family(const std::string& stiffness) {
@@ -103,4 +103,4 @@ TEST(DoubtfulTrack, OneThatSolvesThePencilNoLongerIs) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::completeness_test

@@ -7,7 +7,7 @@
 
 #include "continuation/planted_oscillator.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::criteria_scan_test {
 namespace {
 
 using Seen = CriterionHistory::Seen;
@@ -230,4 +230,4 @@ TEST(ScanCriteria, NotesAChangeOfSignThatIsNotConfirmed) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::criteria_scan_test

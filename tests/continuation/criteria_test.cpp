@@ -8,7 +8,7 @@
 #include "eigentrail/core/text.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::criteria_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -178,4 +178,4 @@ TEST(EventLine, CountsModesFromOneAndKeepsEveryDigit) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::criteria_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace eigentrail::test {
+namespace eigentrail::test::criterion_test {
 namespace {
 
 const std::vector<Criterion> all{{EventKind::flutter, 0.0},
@@ -60,4 +60,4 @@ TEST(Criterion, ZerosOfBothChartsAreTheSame) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::criterion_test

@@ -9,7 +9,7 @@
 
 #include "continuation/planted_oscillator.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::criterion_walk_test {
 namespace {
 
 HermiteInterpolant no_excitation() {
@@ -299,4 +299,4 @@ TEST(CriteriaOnStep, BeginsWhereEigenvaluesCanBeDistinguished) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::criterion_walk_test

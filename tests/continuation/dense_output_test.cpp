@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-namespace eigentrail {
+namespace eigentrail::test::dense_output_test {
 namespace {
 
 /// Taylor coefficients of 1 / (z - p) about p0.
@@ -169,4 +169,4 @@ TEST(DenseOutput, KeepsItsDigitsWhereAFunctionVanishesAtAnEnd) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::dense_output_test

@@ -11,7 +11,7 @@
 
 #include "continuation/planted_points.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::eigenvalue_branches_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of interpolated polynomials of order one
@@ -361,4 +361,4 @@ TEST(DepartingRoots, BehindAnExceptionalPointShrinkLikeTheRootOfTheDistance) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::eigenvalue_branches_test

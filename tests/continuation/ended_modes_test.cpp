@@ -11,7 +11,7 @@
 #include "continuation/tracks/towards_infinity.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::ended_modes_test {
 namespace {
 
 std::vector<Complex> on_lines(double p) {
@@ -206,4 +206,4 @@ K = [[[1, 0.3], [0.3, 0]], [[0, 0], [0, 1]]]
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::ended_modes_test

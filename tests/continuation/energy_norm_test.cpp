@@ -14,7 +14,7 @@
 #include "continuation/step/ball_norm.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::energy_norm_test {
 namespace {
 
 double largest(const Matrix& A) {
@@ -218,4 +218,4 @@ TEST_P(NormOfABall, OfEnergyLeavesTheModesAsLongAsTheyAre) {
 INSTANTIATE_TEST_SUITE_P(Blocks, NormOfABall, testing::Values(1, 2, 3));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::energy_norm_test

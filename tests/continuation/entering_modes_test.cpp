@@ -9,7 +9,7 @@
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::entering_modes_test {
 namespace {
 
 using test::make_setting;
@@ -98,4 +98,4 @@ TEST(EnteringModesOnTheRange, NothingInTheBandAtTheStartTakesTheNearestAndSaysSo
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::entering_modes_test

@@ -15,7 +15,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::equal_parts_test {
 namespace {
 
 struct EqualParts {
@@ -570,4 +570,4 @@ TEST(EqualPartsOfAScene, BothFluttersHaveADirection) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::equal_parts_test

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace eigentrail::test {
+namespace eigentrail::test::event_kinds_test {
 namespace {
 
 TEST(EventKinds, EveryKindHasOneRowWithNamesOfItsOwn) {
@@ -54,4 +54,4 @@ TEST(EventKinds, RemarksSayWhatAnEventIs) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::event_kinds_test

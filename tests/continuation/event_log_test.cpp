@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail::test {
+namespace eigentrail::test::event_log_test {
 namespace {
 
 Event event_at(EventKind kind, double p, Complex s, std::vector<int> modes, int node = 5) {
@@ -119,4 +119,4 @@ TEST_F(Log, KnowsVeeringsByModesAndComplexPlace) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::event_log_test

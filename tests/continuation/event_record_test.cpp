@@ -7,7 +7,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::event_record_test {
 namespace {
 
 /// Frequencies 2 + p, 2.3 - p and 5 + 0.5 p.
@@ -139,4 +139,4 @@ TEST(KeepFoldSensitivities, AreThoseOfThePlaceOfTheFold) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::event_record_test

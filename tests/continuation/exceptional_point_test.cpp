@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::exceptional_point_test {
 namespace {
 
 constexpr Complex i(0.0, 1.0);
@@ -168,4 +168,4 @@ TEST(ExceptionalPoint, OfTwoModesOfMany) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::exceptional_point_test

@@ -9,7 +9,7 @@
 #include "continuation/events/expected_meetings.hpp"
 #include "continuation/planted_points.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::expected_meetings_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of simple roots of interpolated polynomials of order one
@@ -374,4 +374,4 @@ TEST(ExpectedBeside, NothingIsExpectedOfEigenvaluesThatHaveJustMet) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::expected_meetings_test

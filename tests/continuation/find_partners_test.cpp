@@ -9,7 +9,7 @@
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::find_partners_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of series of modes some tenths apart, of order one
@@ -194,4 +194,4 @@ TEST(FindPartners, WideBlockIsNotMetWhereItsDiscIs) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::find_partners_test

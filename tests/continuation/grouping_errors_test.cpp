@@ -11,7 +11,7 @@
 #include "continuation/planted_points.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::grouping_errors_test {
 namespace {
 
 /// Error of interpolated polynomials: rounding of series whose terms are a hundred times larger than their
@@ -243,4 +243,4 @@ TEST(ErrorAsBlock, CountsRootsAsNoCloserThanTheLeastGap) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::grouping_errors_test

@@ -6,7 +6,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::growth_check_test {
 namespace {
 
 struct Growing {
@@ -67,4 +67,4 @@ TEST(GrowthCheck, SaysNothingWhereNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::growth_check_test

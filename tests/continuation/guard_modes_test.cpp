@@ -8,7 +8,7 @@
 #include "continuation/planted_search.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::guard_modes_test {
 namespace {
 
 TEST(AddNeighbours, AddsTheNearestThatNoTrackHas) {
@@ -71,4 +71,4 @@ TEST(GuardModes, AreFoundBeforeStepsShrinkTowardsACollision) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::guard_modes_test

@@ -7,7 +7,7 @@
 
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::inverse_distance_test {
 namespace {
 
 /// Norm of the inverse of X -> A X - X B, from its matrix for vec X.
@@ -64,4 +64,4 @@ TEST(InverseDistance, TriangularFormKeepsTheEigenvalues) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::inverse_distance_test

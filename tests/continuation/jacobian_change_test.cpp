@@ -6,7 +6,7 @@
 #include "core/band_matrix.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::jacobian_change_test {
 namespace {
 
 constexpr Eigen::Index n = 20;  // products by BLAS
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(Pairs, ChangeOfJacobian,
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::jacobian_change_test

@@ -8,7 +8,7 @@
 #include "continuation/planted_search.hpp"
 #include "continuation/step/step_error.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::joining_test {
 namespace {
 
 /// Frequencies 2 -+ hypot(p, eps), and 5.
@@ -78,4 +78,4 @@ TEST(RegroupLimitingModes, LeavesAccurateModesAlone) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::joining_test

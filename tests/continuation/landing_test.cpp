@@ -8,7 +8,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::landing_test {
 namespace {
 
 constexpr double reach = 3.0;
@@ -270,4 +270,4 @@ TEST(MeetingsAt, FindsWhatCoincidesAtAPointAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::landing_test

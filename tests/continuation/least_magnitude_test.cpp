@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace eigentrail {
+namespace eigentrail::test::least_magnitude_test {
 namespace {
 
 /// Coefficients of (t - a) (t - b).
@@ -49,4 +49,4 @@ TEST(LeastMagnitude, OneMemberOfABlockThatVanishesIsEnough) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::least_magnitude_test

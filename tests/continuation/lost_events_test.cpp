@@ -7,7 +7,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::lost_events_test {
 namespace {
 
 const Event* find(const RecordedTrace& trace, EventKind kind) {
@@ -140,4 +140,4 @@ TEST(LostEvents, NoneWhereTheToleranceIsBelowRounding) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::lost_events_test

@@ -7,7 +7,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::meeting_events_test {
 namespace {
 
 /// Frequencies 2 + p, 2 - p (one block) and 5.
@@ -145,4 +145,4 @@ TEST(MeetingEvents, OfGuardsAreNone) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::meeting_events_test

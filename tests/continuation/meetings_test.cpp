@@ -9,7 +9,7 @@
 #include "continuation/planted_points.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::meetings_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of gaps that are polynomials of order one
@@ -481,4 +481,4 @@ TEST(EarlierMeeting, IsNoneBesideTheAxisAndNoneAtThePoint) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::meetings_test

@@ -5,7 +5,7 @@
 
 #include "continuation/planted_points.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::members_test {
 namespace {
 
 using Modes = std::vector<int>;
@@ -42,4 +42,4 @@ TEST_F(PointOfFour, MembersAreNamedByTheirIndicesInTheBlock) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::members_test

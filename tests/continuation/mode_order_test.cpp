@@ -7,7 +7,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::mode_order_test {
 namespace {
 
 using Modes = std::vector<int>;
@@ -106,4 +106,4 @@ TEST(SettleRealBlock, NeverGivesANumberThatIsInUse) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::mode_order_test

@@ -8,7 +8,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::mode_route_test {
 namespace {
 
 constexpr double agreement = 1e-10;  ///< of series coefficients, relative to one
@@ -117,4 +117,4 @@ TEST(ModeRoute, TraceThroughBucklingEqualsTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::mode_route_test

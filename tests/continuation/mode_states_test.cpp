@@ -7,7 +7,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::mode_states_test {
 namespace {
 
 const ModeState& of_mode(const std::vector<ModeState>& states, int mode) {
@@ -71,4 +71,4 @@ TEST(ModeStates, IncludeModesThatEndOrBeginThere) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::mode_states_test

@@ -8,7 +8,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::nearby_mode_test {
 namespace {
 
 constexpr double rounding = 1e-12;
@@ -150,4 +150,4 @@ TEST(LookAtMode, FindsNothingWhereThereIsNoEquilibrium) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::nearby_mode_test

@@ -6,7 +6,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::operating_point_test {
 namespace {
 
 TEST(OperatingPoint, AgreesWithTheTraceOfTheRotatingMass) {
@@ -73,4 +73,4 @@ TEST(OperatingPoint, TheModelMayBeTheSameForAllValues) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::operating_point_test

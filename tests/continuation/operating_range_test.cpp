@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eigentrail::test {
+namespace eigentrail::test::operating_range_test {
 namespace {
 
 const double infinite = std::numeric_limits<double>::infinity();
@@ -73,4 +73,4 @@ TEST(OperatingRanges, AreWrittenAsTheSceneHasThem) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::operating_range_test

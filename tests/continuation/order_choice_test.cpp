@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail {
+namespace eigentrail::test::order_choice_test {
 namespace {
 
 TEST(OrderChoice, HigherOrderForTighterTolerance) {
@@ -39,4 +39,4 @@ TEST(OrderChoice, PointsAreThoseOfARotatingMass) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::order_choice_test

@@ -9,7 +9,7 @@
 #include "eigentrail/continuation/path_point.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::other_path_test {
 namespace {
 
 TEST(ChoiceAt, TakesTheListInOrderAndASingleOneForAll) {
@@ -93,4 +93,4 @@ TEST(SurveyBranchPoint, FindsTheOtherPathOfAPitchfork) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::other_path_test

@@ -6,7 +6,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::overlooked_collision_test {
 namespace {
 
 struct Ends {
@@ -50,4 +50,4 @@ TEST(OverlooksCollision, LeavesOutWhatCannotBeToldApart) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::overlooked_collision_test

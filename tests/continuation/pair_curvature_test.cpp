@@ -6,7 +6,7 @@
 
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::pair_curvature_test {
 namespace {
 
 constexpr Eigen::Index n = 9;
@@ -68,4 +68,4 @@ TEST_P(CurvatureOfAPair, HasAdjoints) {
 INSTANTIATE_TEST_SUITE_P(Blocks, CurvatureOfAPair, testing::Values(1, 2, 3));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::pair_curvature_test

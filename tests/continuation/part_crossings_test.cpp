@@ -11,7 +11,7 @@
 #include "eigentrail/modes/spectrum.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::part_crossings_test {
 namespace {
 
 constexpr Complex j{0.0, 1.0};
@@ -205,4 +205,4 @@ TEST(FindPartCrossings, KnowsHowThePlaceMoves) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::part_crossings_test

@@ -9,7 +9,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::path_frame_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -214,4 +214,4 @@ TEST(RenewPlane, FollowsThePathOnceItIsSlantedEnough) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::path_frame_test

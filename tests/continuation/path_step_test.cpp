@@ -9,7 +9,7 @@
 
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::path_step_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -321,4 +321,4 @@ TEST(ChartValue, ExchangesZeroAndInfinity) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::path_step_test

@@ -8,7 +8,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::point_solver_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -195,4 +195,4 @@ TEST(EventWork, CountsFactorizationsAsThoseOfEvents) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::point_solver_test

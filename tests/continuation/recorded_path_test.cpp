@@ -7,7 +7,7 @@
 
 #include "continuation/step/path_step.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::recorded_path_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -205,4 +205,4 @@ TEST(CountedEigenvalues, OfSingleModesCostNoPolynomial) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::recorded_path_test

@@ -11,7 +11,7 @@
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::regrouping_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of series of modes some tenths apart, of order one
@@ -397,4 +397,4 @@ TEST(PrefersOtherChart, NeitherBlocksNorZeroDo) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::regrouping_test

@@ -7,7 +7,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::remedy_test {
 namespace {
 
 using Kind = Verdict::Kind;
@@ -82,4 +82,4 @@ TEST(FindRemedy, DoesNotLookForUnfollowedModesWhereAllAreFollowed) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::remedy_test

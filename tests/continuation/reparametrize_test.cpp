@@ -10,7 +10,7 @@
 #include "continuation/planted_points.hpp"
 #include "core/matrix_series.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::reparametrize_test {
 namespace {
 
 constexpr double rounding = 1e-13;  ///< of the composition of series of order one
@@ -254,4 +254,4 @@ TEST_F(PendulumBeforeItsFold, BackInTheParameterEverySeriesIsRestored) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::reparametrize_test

@@ -8,7 +8,7 @@
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::resume_test {
 namespace {
 
 std::string difference(const Setting& setting, std::size_t states = 8) {
@@ -160,4 +160,4 @@ TEST_F(DamagedState, OfAnotherModelIsRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::resume_test

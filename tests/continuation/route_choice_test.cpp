@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail {
+namespace eigentrail::test::route_choice_test {
 namespace {
 
 Structure damped() {
@@ -47,4 +47,4 @@ TEST(RouteChoice, WorkGrowsWithTheNumberOfModesAndTheOrder) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::route_choice_test

@@ -9,7 +9,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sensitive_spectra_test {
 namespace {
 
 /// A matrix in the words of a scene, from a function of row and column.
@@ -283,4 +283,4 @@ TEST(SensitiveSpectra, ForwardAndBackwardWhirlOfManyModesMeetAtRest) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sensitive_spectra_test

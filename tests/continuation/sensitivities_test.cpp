@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eigentrail::test {
+namespace eigentrail::test::sensitivities_test {
 namespace {
 
 /// A mass on springs in x and y, with a drag: s^2 m + r s + k = 0 in either direction.
@@ -97,4 +97,4 @@ TEST(EffectInfluences, AreOfAsManyModesAsAreFollowed) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sensitivities_test

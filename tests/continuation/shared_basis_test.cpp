@@ -13,7 +13,7 @@
 #include "eigentrail/modes/invariants.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::shared_basis_test {
 namespace {
 
 using Coefficients = std::vector<ComplexMatrix>;
@@ -273,4 +273,4 @@ TEST(BlockOnStep, OfAConstrainedSystemIsSmooth) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::shared_basis_test

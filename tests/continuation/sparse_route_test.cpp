@@ -7,7 +7,7 @@
 #include "support/chains.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sparse_route_test {
 namespace {
 
 constexpr double rounding = 1e-11;  ///< relative; some hundred rounded steps
@@ -177,4 +177,4 @@ TEST(SparseKind, OfASmallModelFindsTheSameEvents) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sparse_route_test

@@ -11,7 +11,7 @@
 #include "continuation/planted_points.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::starting_tracks_test {
 namespace {
 
 constexpr double s_ref = 1e-3;
@@ -247,4 +247,4 @@ TEST(StartingGroups, EveryModeIsInOneGroupAndEveryRootHasItsMode) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::starting_tracks_test

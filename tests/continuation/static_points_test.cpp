@@ -10,7 +10,7 @@
 #include "eigentrail/continuation/path_point.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::static_points_test {
 namespace {
 
 /// sin(angle) = p with a fold at p = 1, followed on planes.
@@ -92,4 +92,4 @@ TEST(AsStaticEvent, DropsTheZeroEigenvalueOfAFold) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::static_points_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace eigentrail {
+namespace eigentrail::test::step_control_test {
 namespace {
 
 TEST(StepControl, FirstStepIsTheGivenOne) {
@@ -114,4 +114,4 @@ TEST(StepControl, DoesNotGrowRightAfterARejection) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::step_control_test

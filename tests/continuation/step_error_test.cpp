@@ -9,7 +9,7 @@
 #include "continuation/planted_search.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::step_error_test {
 namespace {
 
 constexpr double tolerance = 1e-6;
@@ -245,4 +245,4 @@ TEST(ObservedRounding, IsKnownByModeWhateverTheyAreFollowedWith) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::step_error_test

@@ -7,7 +7,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::step_judgement_test {
 namespace {
 
 using Kind = Verdict::Kind;
@@ -224,4 +224,4 @@ TEST(Judge, RoundingOfAnEquilibriumThatDoesNotMoveIsNoOtherPath) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::step_judgement_test

@@ -8,7 +8,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::step_solver_test {
 namespace {
 
 constexpr double rounding = 1e-12;
@@ -204,4 +204,4 @@ TEST(Attempt, CorrectsModesCloseToTheAxis) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::step_solver_test

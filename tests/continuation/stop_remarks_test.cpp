@@ -5,7 +5,7 @@
 
 #include "continuation/planted_search.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::stop_remarks_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -75,4 +75,4 @@ TEST(TooSmallMessage, TellsThatConstraintsBecomeDependent) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::stop_remarks_test

@@ -7,7 +7,7 @@
 #include "continuation/step/step_certificate.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::stored_step_test {
 namespace {
 
 /// Frequencies 2 + p and 2.6 - p in one block, and 5.
@@ -136,4 +136,4 @@ TEST(Certify, DoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::stored_step_test

@@ -5,7 +5,7 @@
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::threads_test {
 namespace {
 
 /// n freedoms whose frequencies veer and are damped, M the identity.
@@ -61,4 +61,4 @@ TEST(Threads, GiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::threads_test

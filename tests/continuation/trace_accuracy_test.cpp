@@ -9,7 +9,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::trace_accuracy_test {
 namespace {
 
 /// Rotating mass solved by hand: Newton on Eq. (144), a Householder basis, QZ. `x` (relative to the hinge) is
@@ -123,4 +123,4 @@ TEST(TraceWork, OneFactorizationPerModeAndStepWhereNothingHappens) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::trace_accuracy_test

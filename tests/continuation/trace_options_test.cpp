@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace eigentrail {
+namespace eigentrail::test::trace_options_test {
 namespace {
 
 const std::string family = "[matrix_family]\nM = [ [[1]] ]\nK = [ [[1]], [[1]] ]\n";
@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::trace_options_test

@@ -8,7 +8,7 @@
 #include "continuation/planted_search.hpp"
 #include "continuation/trace/trace_state.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::trace_start_test {
 namespace {
 
 /// The start of a trace of a planted family along its range.
@@ -109,4 +109,4 @@ TEST(OrderFirstDeparture, TellsApartWhatCoincidesAtTheStart) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::trace_start_test

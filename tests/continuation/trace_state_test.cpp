@@ -6,7 +6,7 @@
 #include "continuation/planted_search.hpp"
 #include "eigentrail/core/errors.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::trace_state_test {
 namespace {
 
 struct State {
@@ -85,4 +85,4 @@ TEST(Apply, CopiesTheSettingsOfTheTrace) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::trace_state_test

@@ -9,7 +9,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::trace_test {
 namespace {
 
 TEST(Trace, RandomBasisAtEveryPointChangesNoEigenvalue) {
@@ -303,4 +303,4 @@ TEST(Trace, GivesUpAfterTooManyPoints) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::trace_test

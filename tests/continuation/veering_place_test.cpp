@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace eigentrail {
+namespace eigentrail::test::veering_place_test {
 namespace {
 
 constexpr Complex i(0.0, 1.0);
@@ -59,4 +59,4 @@ TEST(LocatedVeering, OfTwoThatDoNotMeetIsNone) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::veering_place_test

@@ -10,7 +10,7 @@
 #include "continuation/planted_search.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::veerings_test {
 namespace {
 
 /// Frequencies 2 -+ hypot(p - at, eps).
@@ -200,4 +200,4 @@ TEST(FindVeerings, IsLeftOutWhereTheOptionsSaySo) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::veerings_test

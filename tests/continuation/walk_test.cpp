@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail::test {
+namespace eigentrail::test::walk_test {
 namespace {
 
 WalkRules rules_of(double resolution) {
@@ -93,4 +93,4 @@ TEST(Walk, WithoutAnIntervalNewtonsMethodRunsAway) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::walk_test

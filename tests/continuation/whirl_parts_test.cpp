@@ -15,7 +15,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::whirl_parts_test {
 namespace {
 
 using ComplexTerms = std::vector<ComplexMatrix>;
@@ -423,4 +423,4 @@ TEST(WhirlParts, ResumedTraceIsTheSame) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::whirl_parts_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eigentrail {
+namespace eigentrail::test::archive_test {
 namespace {
 
 struct Item {
@@ -105,4 +105,4 @@ TEST(Archive, TooFewOrTooManyBytesAreRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::archive_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace eigentrail::test {
+namespace eigentrail::test::band_matrix_test {
 namespace {
 
 /// n x n with random entries up to `width` from the diagonal.
@@ -88,4 +88,4 @@ TEST(BandCholesky, DoesNotExistOfIndefiniteOrEmptyMatricesOrOfNoNumbers) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::band_matrix_test

@@ -9,7 +9,7 @@
 
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::chebyshev_test {
 namespace {
 
 std::vector<Complex> roots_near_unit_interval(const std::function<Complex(double)>& f, int degree) {
@@ -236,4 +236,4 @@ TEST(HasNoRootIn, TellsNothingOfWhatVanishesOrIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::chebyshev_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail::test {
+namespace eigentrail::test::complex_lu_test {
 namespace {
 
 /// Without a leading pivot: rows must change places.
@@ -42,4 +42,4 @@ TEST(ComplexLu, SingularMatrixGivesNothingFinite) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::complex_lu_test

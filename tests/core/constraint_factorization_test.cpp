@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-namespace eigentrail {
+namespace eigentrail::test::constraint_factorization_test {
 namespace {
 
 // A few hundred roundings in an orthogonal factorization of unit rows.
@@ -236,4 +236,4 @@ TEST(ConstraintFactorization, RowsCloserThanTheRankToleranceAreOneConstraint) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::constraint_factorization_test

@@ -6,7 +6,7 @@
 #include "core/products.hpp"
 #include "eigentrail/core/constraint_factorization.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::diagonal_blocks_test {
 namespace {
 
 using Indices = std::vector<Eigen::Index>;
@@ -103,4 +103,4 @@ TEST(SparseProducts, HaveNoMoreCoefficientsThanThereAre) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::diagonal_blocks_test

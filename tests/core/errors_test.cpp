@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace eigentrail {
+namespace eigentrail::test::errors_test {
 namespace {
 
 const std::vector<std::string> names = {"length", "mass", "stiffness", "k"};
@@ -67,4 +67,4 @@ TEST(Suggestion, SaysSoWhenNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::errors_test

@@ -12,7 +12,7 @@
 #include <functional>
 #include <numbers>
 
-namespace eigentrail {
+namespace eigentrail::test::hdf5_file_test {
 namespace {
 
 class Hdf5FileTest : public testing::Test {
@@ -436,4 +436,4 @@ TEST(ElementCount, IsTheProductOfTheDimensionsWithoutOverflow) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::hdf5_file_test

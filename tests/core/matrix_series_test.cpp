@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail {
+namespace eigentrail::test::matrix_series_test {
 namespace {
 
 const MatrixSeries A{Matrix{{2.0, 1.0}, {0.0, 3.0}}, Matrix{{0.5, -1.0}, {2.0, 0.25}},
@@ -43,4 +43,4 @@ TEST(MatrixSeries, CoefficientsMayBeComplex) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::matrix_series_test

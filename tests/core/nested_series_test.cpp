@@ -6,7 +6,7 @@
 
 #include "eigentrail/core/series.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::nested_series_test {
 namespace {
 
 constexpr int order = 4;
@@ -150,4 +150,4 @@ TEST(SeriesAsEigenScalar, MixesWithNumbersAndNestedSeries) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::nested_series_test

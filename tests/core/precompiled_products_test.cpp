@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <complex>
 
-namespace eigentrail {
+namespace eigentrail::test::precompiled_products_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -79,4 +79,4 @@ TEST(PrecompiledProducts, OfEmptyMatricesAreZero) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::precompiled_products_test

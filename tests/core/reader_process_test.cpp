@@ -9,7 +9,7 @@
 
 #include "core/hdf5_file.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::reader_process_test {
 namespace {
 
 const std::string tests = std::string(EIGENTRAIL_DATA_DIR) + "/../tests/";
@@ -104,4 +104,4 @@ TEST(ReaderProcess, EndsWithWhatAskedIt) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::reader_process_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace eigentrail {
+namespace eigentrail::test::series_test {
 namespace {
 
 constexpr int order = 4;
@@ -323,4 +323,4 @@ TEST(Series, HyperbolicTangentSaturatesForLargeArguments) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::series_test

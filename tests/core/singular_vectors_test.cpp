@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eigentrail {
+namespace eigentrail::test::singular_vectors_test {
 namespace {
 
 template <class Values>
@@ -52,4 +52,4 @@ TEST(SingularVectors, AreNotANumberWhereTheMatrixIsNot) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::singular_vectors_test

@@ -9,7 +9,7 @@
 
 #include "eigentrail/core/constraint_factorization.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::sparse_constraints_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -124,4 +124,4 @@ TEST(SparseConstraints, AtTheLimitOnlyTheRefinedSolutionKeepsItsDigits) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::sparse_constraints_test

@@ -7,7 +7,7 @@
 
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sparse_factors_test {
 namespace {
 
 /// About a third of the entries of a random matrix, and its diagonal plus `shift`.
@@ -139,4 +139,4 @@ TEST(SparseFactors, DeterminantOfCholeskyFactorsIsRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sparse_factors_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::system_matrix_test {
 namespace {
 
 constexpr double rounding = 1e-14;
@@ -90,4 +90,4 @@ TEST(SystemMatrix, CoefficientsOfOneSeriesAreOfOneKind) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::system_matrix_test

@@ -11,7 +11,7 @@
 
 #include "core/parallel.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::thread_pool_test {
 namespace {
 
 /// How often each of `count` pieces was done.
@@ -131,4 +131,4 @@ TEST(InParallel, GivesTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::thread_pool_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail {
+namespace eigentrail::test::types_test {
 namespace {
 
 TEST(EvaluateSeries, IsThePolynomialInEveryRow) {
@@ -28,4 +28,4 @@ TEST(Coefficient, IsZeroBeyondTheEndOfTheSeries) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::types_test

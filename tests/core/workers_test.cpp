@@ -7,7 +7,7 @@
 
 #include "eigentrail/core/errors.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::workers_test {
 namespace {
 
 TEST(Workers, ThreadsReturnResultsInOrder) {
@@ -57,4 +57,4 @@ TEST(Workers, PartIsReadAsNumberAndCount) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::workers_test

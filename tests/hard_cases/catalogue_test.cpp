@@ -15,7 +15,7 @@
 #include "paper/rotating_mass_reference.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::catalogue_test {
 namespace {
 
 class HardCases : public testing::TestWithParam<HardCase> {
@@ -151,4 +151,4 @@ TEST(WidePencil, JacobiKeepsTheSmallEigenvaluesOfAGradedMatrix) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::catalogue_test

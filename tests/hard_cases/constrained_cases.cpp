@@ -16,10 +16,10 @@ WidePencil oscillator(WideComplex stiffness) {
   return {scalar(1), scalar(0), scalar(stiffness)};
 }
 
-HardCase named(const std::string& name, const std::string& source, double from, double to) {
+HardCase named(const std::string& name, const std::string& derivation, double from, double to) {
   HardCase result;
   result.name = name;
-  result.source = source;
+  result.source = derivation;
   result.from = from;
   result.to = to;
   return result;
@@ -72,7 +72,7 @@ HardCase spring_pendulum(const std::string& name, const std::string& to, double 
 /// Pendulum of unit length and mass pushed along its circle with p times its weight: sin(angle) = p,
 /// s^2 = -g cos(angle); branch 0 hangs, branch 1 stands.
 HardCase pushed_pendulum() {
-  HardCase result = named("C05_pushed_pendulum", "own derivation, closed form", 0.0, 1.2);
+  HardCase result = named("C05_pushed_pendulum", own_closed_form, 0.0, 1.2);
   result.scene = "[parameters]\ng = 9.81\np = 0.0\n\n" + range("p", 0.0, 1.2) +
                  "[gravity]\nacceleration = [0, 0, \"-g\"]\n\n"
                  "[[point]]\nname = \"bob\"\nmass = 1.0\nposition = [0, 0, -1]\n\n"

@@ -8,6 +8,9 @@
 
 namespace eigentrail::test {
 
+/// Source of cases of our own.
+constexpr const char* own_closed_form = "own derivation, closed form";
+
 /// Coefficients of powers of p, lowest first; C may be empty.
 struct Family {
   MatrixSeries M, C, K;

@@ -10,8 +10,6 @@
 namespace eigentrail::test {
 namespace {
 
-const char* const own = "own derivation, closed form";
-
 WideComplexMatrix wide(const Matrix& matrix) {
   return matrix.cast<WideComplex>();
 }
@@ -23,7 +21,7 @@ HardCase recollision() {
       family_scene(0.0, 2.0 * pi, "M = [ [[1]] ]\nC = [ [[\"2*(1 + 0.5*cos(p))\"]] ]\nK = [ [[1]] ]\n");
   const auto damping = [](WideComplex p) { return Wide(2) + std::cos(p); };
   HardCase result = expression_case(
-      "H07_recollision", own, 0.0, 2.0 * pi, scene,
+      "H07_recollision", own_closed_form, 0.0, 2.0 * pi, scene,
       [=](WideComplex p) {
         WidePencil pencil{wide(rows({{1}})), wide(rows({{0}})), wide(rows({{1}}))};
         pencil.C(0, 0) = damping(p);
@@ -64,7 +62,7 @@ HardCase ziegler(const std::string& name, double b, std::vector<SpecialPoint> sp
 /// K = -I, C = p J: gyroscopic stabilization is lost at p = 2 in both pairs at once.
 HardCase gyroscopic_loss() {
   HardCase result =
-      family_case("H10_gyroscopic_loss", own, 3.0, 1.0,
+      family_case("H10_gyroscopic_loss", own_closed_form, 3.0, 1.0,
                   {{Matrix::Identity(2, 2)}, {Matrix::Zero(2, 2), quarter_turn()}, {-Matrix::Identity(2, 2)}},
                   {{"collision", 2.0, {0.0, 1.0}}});
   set_spectrum(result, [](Wide p) {
@@ -83,7 +81,7 @@ HardCase internal_damping() {
                       {0.03 * Matrix::Identity(2, 2)},
                       {Matrix::Identity(2, 2), -0.01 * quarter_turn()}};
   HardCase result =
-      family_case("H11_internal_damping", own, 0.0, 6.0, family,
+      family_case("H11_internal_damping", own_closed_form, 0.0, 6.0, family,
                   {{"crossing", 0.0, {-0.015, 0.999887493671162985817}}, {"flutter", 3.0, {0.0, 1.0}}});
   const auto branch = [](Wide sign) {
     return [sign](Wide p) {
@@ -100,7 +98,7 @@ HardCase internal_damping_anisotropic() {
   const Family family{{Matrix::Identity(2, 2)},
                       {0.03 * Matrix::Identity(2, 2)},
                       {diagonal({1.02, 0.98}), -0.01 * quarter_turn()}};
-  return family_case("H12_internal_damping_anisotropic", own, 0.0, 6.0, family,
+  return family_case("H12_internal_damping_anisotropic", own_closed_form, 0.0, 6.0, family,
                      {{"collision", 2.00000000000000173472, {-0.015, 0.999887493671162985817}},
                       {"flutter", 3.60555127546399011103, {0.0, 1.0}}});
 }
@@ -142,7 +140,7 @@ HardCase oscillator(const std::string& name, double from, double to,
   for (std::size_t i = 0; i < 3; ++i) {
     for (const double value : abc[i]) series[i]->push_back(rows({{value}}));
   }
-  HardCase result = family_case(name, own, from, to, family, std::move(special));
+  HardCase result = family_case(name, own_closed_form, from, to, family, std::move(special));
   set_spectrum(result, [family](Wide p) {
     const WidePencil pencil = evaluate(family, p);
     return quadratic_roots(pencil.M(0, 0), pencil.C(0, 0), pencil.K(0, 0));

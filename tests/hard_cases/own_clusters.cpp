@@ -8,7 +8,6 @@
 namespace eigentrail::test {
 namespace {
 
-const char* const closed = "own derivation, closed form";
 const char* const computed = "own derivation; special points in 40-digit arithmetic, reference.py";
 
 Matrix identity(Eigen::Index n) {
@@ -62,7 +61,7 @@ std::vector<SpecialPoint> same_pair_twice_points() {
 HardCase same_pair_twice() {
   constexpr double start = 0.9975, coupling = 1e-5;
   HardCase result = family_case(
-      "two_veerings_same_pair", closed, -0.5, 0.5,
+      "two_veerings_same_pair", own_closed_form, -0.5, 0.5,
       {{identity(2)}, {}, {rows({{start, coupling}, {coupling, 1}}), Matrix::Zero(2, 2), diagonal({1, 0})}},
       same_pair_twice_points());
   const auto mu = [](Wide p, Wide sign) {
@@ -82,7 +81,7 @@ HardCase constrained_exceptional_point() {
   const Family reduced{{identity(2), Matrix::Zero(2, 2), diagonal({1, 0})},
                        {},
                        {diagonal({1, 2}), rows({{0, 2}, {-2, 0}}), rows({{0.5, -0.3}, {0.3, 0}})}};
-  HardCase result = family_case("constrained_exceptional_point", closed, 0.0, 1.0, reduced,
+  HardCase result = family_case("constrained_exceptional_point", own_closed_form, 0.0, 1.0, reduced,
                                 {{"collision", 0.281036879269310891975, {0.0, 1.21725097600560612207}}});
   const MatrixSeries A = {rows({{0, 0, -1}}), rows({{1, 0, 0}})};
   result.scene = family_scene(
@@ -103,7 +102,7 @@ HardCase constrained_exceptional_point() {
 /// C = p J, K = diag(-1, -2): two pairs meet on the imaginary axis at p = 1 + sqrt(2) (Hamiltonian Hopf), and
 /// the quadruple falls on the real axis at p = sqrt(2) - 1.
 HardCase hamiltonian_hopf() {
-  HardCase result = family_case("hamiltonian_hopf", closed, 4.0, 0.2,
+  HardCase result = family_case("hamiltonian_hopf", own_closed_form, 4.0, 0.2,
                                 {{identity(2)}, {Matrix::Zero(2, 2), quarter_turn()}, {diagonal({-1, -2})}},
                                 {{"collision", 0.414213562373095048802, 1.18920711500272106672},
                                  {"collision", 0.414213562373095048802, -1.18920711500272106672},
@@ -156,7 +155,7 @@ HardCase overdamped_crossing() {
   const Matrix U = rows({{1, 1}, {0, 1}});
   const auto mix = [&](double a, double b) { return Matrix(U.transpose() * diagonal({a, b}) * U); };
   HardCase result =
-      family_case("overdamped_crossing", closed, 0.0, 1.0,
+      family_case("overdamped_crossing", own_closed_form, 0.0, 1.0,
                   {{mix(1, 1)}, {mix(5, 7.5), mix(2, -2)}, {mix(4, 11), mix(5, -7.5), mix(1, 1)}},
                   {{"crossing", 0.5, -1.5}, {"crossing", 0.75, -4.75}});
   set_branches(result, {[](Wide p) { return -1 - p; }, [](Wide p) { return -4 - p; },
@@ -175,7 +174,7 @@ HardCase triple_crossing() {
   const Matrix U = rows({{1, 1, 0, 0}, {0, 1, 1, 0}, {0, 0, 1, 1}, {0, 0, 0, 1}});
   const auto mix = [&](const Matrix& D) { return Matrix(U.transpose() * D * U); };
   HardCase result =
-      family_case("triple_crossing", closed, -0.5, 0.5,
+      family_case("triple_crossing", own_closed_form, -0.5, 0.5,
                   {{mix(identity(4))}, {}, {mix(diagonal({1, 1, 1, 2})), mix(diagonal({1, -1, 0.5, 0}))}},
                   {{"crossing", 0.0, {0.0, 1.0}}});
   set_spectrum(result, [](Wide p) { return undamped_pairs({1 + p, 1 - p, 1 + p / 2, 2}); });

@@ -8,7 +8,6 @@
 namespace eigentrail::test {
 namespace {
 
-const char* const closed = "own derivation, closed form";
 const char* const computed = "own derivation; special points in 40-digit arithmetic, reference.py";
 
 Matrix identity(Eigen::Index n) {
@@ -84,7 +83,7 @@ HardCase free_chain() {
   const Family family{{identity(3)},
                       {},
                       {rows({{1, -1, 0}, {-1, 1, 0}, {0, 0, 0}}), rows({{0, 0, 0}, {0, 1, -1}, {0, -1, 1}})}};
-  HardCase result = family_case("free_chain", closed, 0.5, 2.0, family, {});
+  HardCase result = family_case("free_chain", own_closed_form, 0.5, 2.0, family, {});
   // mu^2 - 2 (1 + p) mu + 3 p = 0, and mu = 0.
   const auto mu = [](Wide p, Wide sign) { return 1 + p + sign * std::sqrt(1 - p + p * p); };
   set_spectrum(result, [mu](Wide p) { return undamped_pairs({0, mu(p, -1), mu(p, 1)}); });
@@ -107,7 +106,7 @@ HardCase graded_veering() {
 
 /// Shaft in its own frame, C = 2 p J, K = I - p^2 I: s = j (1 - p) passes zero and stays imaginary.
 HardCase whirl_through_zero() {
-  HardCase result = family_case("whirl_through_zero", closed, 0.5, 1.5,
+  HardCase result = family_case("whirl_through_zero", own_closed_form, 0.5, 1.5,
                                 {{identity(2)},
                                  {Matrix::Zero(2, 2), 2.0 * quarter_turn()},
                                  {identity(2), Matrix::Zero(2, 2), -identity(2)}},
@@ -123,7 +122,7 @@ HardCase whirl_anisotropic(const std::string& name, double d, std::vector<Specia
   Family family{{identity(2)},
                 {d * identity(2), 2.0 * quarter_turn()},
                 {diagonal({0.9, 1.1}), Matrix::Zero(2, 2), -identity(2)}};
-  HardCase result = family_case(name, d == 0.0 ? closed : computed, 0.5, 1.5, family, std::move(special));
+  HardCase result = family_case(name, d == 0.0 ? own_closed_form : computed, 0.5, 1.5, family, std::move(special));
   if (d != 0.0) return result;
   set_spectrum(result, [](Wide p) {
     // mu^2 - (2 + 2 p^2) mu + (k1 - p^2)(k2 - p^2) = 0; the small root from the product.
@@ -147,7 +146,7 @@ HardCase tangent_divergence() {
     return result;
   };
   HardCase result =
-      expression_case("tangent_divergence", closed, 1.0, -0.5, scene, pencil,
+      expression_case("tangent_divergence", own_closed_form, 1.0, -0.5, scene, pencil,
                       {{"divergence", 0.0, 0.0}, {"collision", 0.00999966668666523931645, -0.1}});
   set_spectrum(result, [](Wide p) { return quadratic_roots(1, 0.2, std::tan(p)); });
   return result;
@@ -162,7 +161,7 @@ HardCase mass_through_zero(bool damped) {
     special.push_back({"collision", 0.0400039250974680777868, -5.00148563728451635204});
   }
   HardCase result = family_case(damped ? "mass_through_zero" : "mass_through_zero_undamped",
-                                damped ? computed : closed, 1.0, -0.5, family, special);
+                                damped ? computed : own_closed_form, 1.0, -0.5, family, special);
   if (damped) return result;
   set_spectrum(result, [](Wide p) {
     // p mu^2 - (1 + p) mu + 1 - 0.2^2 = 0: one root by the product, the other infinite at p = 0.
@@ -177,7 +176,7 @@ HardCase mass_through_zero(bool damped) {
 /// s^2 + 2 s + 1 + p^2: s = -1 + j p touches the real axis at p = 0 and leaves on the other side.
 HardCase touching() {
   HardCase result =
-      family_case("touching", closed, -0.5, 0.5,
+      family_case("touching", own_closed_form, -0.5, 0.5,
                   {{identity(1)}, {2.0 * identity(1)}, {identity(1), Matrix::Zero(1, 1), identity(1)}},
                   {{"collision", 0.0, -1.0}});
   const auto branch = [](Wide p) { return WideComplex(-1, p); };

@@ -4,7 +4,7 @@
 #include "hard_cases/run_case.hpp"
 #include "support/resumed.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::resumed_cases_test {
 namespace {
 
 constexpr std::size_t states = 12;  ///< number of states of each trace from which it is resumed
@@ -24,4 +24,4 @@ INSTANTIATE_TEST_SUITE_P(All, ResumedCase, testing::ValuesIn(hard_cases()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::resumed_cases_test

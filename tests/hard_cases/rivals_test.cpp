@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eigentrail::test {
+namespace eigentrail::test::rivals_test {
 namespace {
 
 class ReferenceLabels : public testing::TestWithParam<HardCase> {};
@@ -87,4 +87,4 @@ TEST(Rivals, ReportWhereTheEquilibriumEnds) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::rivals_test

@@ -12,7 +12,7 @@
 #include "hard_cases/clear_parameters.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::scenes_test {
 namespace {
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
@@ -160,4 +160,4 @@ INSTANTIATE_TEST_SUITE_P(All, Scenes, testing::ValuesIn(hard_cases()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::scenes_test

@@ -7,7 +7,7 @@
 
 #include "hard_cases/run_case.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::thresholds_test {
 namespace {
 
 constexpr int random_samples = 20;  // eigenvalues do not depend on the thresholds
@@ -69,4 +69,4 @@ TEST(Thresholds, AreListedOnce) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::thresholds_test

@@ -9,7 +9,7 @@
 #include "hard_cases/run_case.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::traced_cases_test {
 namespace {
 
 constexpr int random_samples = 500;
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(All, TracedCase, testing::ValuesIn(hard_cases()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::traced_cases_test

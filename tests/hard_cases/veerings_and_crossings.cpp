@@ -8,7 +8,6 @@
 namespace eigentrail::test {
 namespace {
 
-const char* const own = "own derivation, closed form";
 const Complex unit_stiffness(0.0, 1.0);  // s of a mode with unit mass and stiffness
 
 /// Undamped branch s = j sqrt(mu(p)) for mu > 0.
@@ -19,7 +18,7 @@ std::function<WideComplex(Wide)> oscillation(const std::function<Wide(Wide)>& mu
 /// K = [[1 + p, eps], [eps, 1 - p]]: s^2 = -(1 +- sqrt(p^2 + eps^2)), exceptional points p = +- j eps.
 HardCase veering(const std::string& name, double eps) {
   const Family family{{rows({{1, 0}, {0, 1}})}, {}, {rows({{1, eps}, {eps, 1}}), diagonal({1, -1})}};
-  HardCase result = family_case(name, own, -0.5, 0.5, family, {{"veering", 0.0, unit_stiffness, eps}});
+  HardCase result = family_case(name, own_closed_form, -0.5, 0.5, family, {{"veering", 0.0, unit_stiffness, eps}});
   const Wide coupling = eps;
   const auto upper = [coupling](Wide p) { return 1 + std::hypot(p, coupling); };
   const auto lower = [coupling](Wide p) { return 1 - std::hypot(p, coupling); };
@@ -30,7 +29,7 @@ HardCase veering(const std::string& name, double eps) {
 
 /// Modes with mu = 1 + p and 1 - p that cross at p = 0.
 HardCase crossing(const std::string& name, const Family& family) {
-  HardCase result = family_case(name, own, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
+  HardCase result = family_case(name, own_closed_form, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
   set_spectrum(result, [](Wide p) { return undamped_pairs({1 + p, 1 - p}); });
   set_branches(result,
                {oscillation([](Wide p) { return 1 + p; }), oscillation([](Wide p) { return 1 - p; })});
@@ -50,7 +49,7 @@ HardCase permanent_doublet() {
   const Family family{
       {Matrix::Identity(3, 3)}, {}, {Matrix::Identity(3, 3), Matrix::Constant(3, 3, 1.0 / 3.0)}};
   HardCase result =
-      family_case("H04_permanent_doublet", own, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
+      family_case("H04_permanent_doublet", own_closed_form, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
   set_spectrum(result, [](Wide p) { return undamped_pairs({1 + p, 1, 1}); });
   const auto one = oscillation([](Wide) { return Wide(1); });
   set_branches(result, {oscillation([](Wide p) { return 1 + p; }), one, one});
@@ -61,7 +60,7 @@ HardCase permanent_doublet() {
 HardCase exceptional_point(const std::string& name, double to) {
   const Family family{{Matrix::Identity(2, 2)}, {}, {diagonal({1, 2}), -quarter_turn()}};
   HardCase result =
-      family_case(name, own, 0.0, to, family, {{"collision", 0.5, {0.0, 1.2247448713915890491}}});
+      family_case(name, own_closed_form, 0.0, to, family, {{"collision", 0.5, {0.0, 1.2247448713915890491}}});
   set_spectrum(result, [](Wide p) {
     const WideComplex root = std::sqrt(WideComplex((Wide(0.5) - p) * (Wide(0.5) + p)));
     return undamped_pairs({Wide(1.5) + root, Wide(1.5) - root});
@@ -74,7 +73,7 @@ HardCase triple_exceptional_point() {
   const Family family{{Matrix::Identity(3, 3)},
                       {},
                       {rows({{1, 1, 0}, {0, 1, 1}, {0, 0, 1}}), rows({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}})}};
-  HardCase result = family_case("H06_triple_exceptional_point", own, -0.1, 0.1, family,
+  HardCase result = family_case("H06_triple_exceptional_point", own_closed_form, -0.1, 0.1, family,
                                 {{"collision", 0.0, unit_stiffness}});
   set_spectrum(result, [](Wide p) {
     const Wide root = std::cbrt(p);

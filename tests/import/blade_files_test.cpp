@@ -10,7 +10,7 @@
 #include "import/text_lines.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::blade_files_test {
 namespace {
 
 const std::string nrel = std::string(EIGENTRAIL_IMPORT_DATA) + "/NRELOffshrBsline5MW_Blade.dat";
@@ -215,4 +215,4 @@ TEST_F(Import, ASecondFileOfAKindIsRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::blade_files_test

@@ -8,7 +8,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::digits_test {
 namespace {
 
 SampledData random_samples(int n) {
@@ -75,4 +75,4 @@ TEST(Digits, Option) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::digits_test

@@ -5,7 +5,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::dmig_test {
 namespace {
 
 std::vector<DmigMatrix> read(const std::string& text) {
@@ -129,4 +129,4 @@ TEST(Dmig, FaultsNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::dmig_test

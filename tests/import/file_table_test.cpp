@@ -5,7 +5,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::file_table_test {
 namespace {
 
 std::string message(const std::string& text) {
@@ -58,4 +58,4 @@ TEST(FileTable, IsKnownByItsName) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::file_table_test

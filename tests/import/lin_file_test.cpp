@@ -7,7 +7,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::lin_file_test {
 namespace {
 
 const std::string text = R"(
@@ -109,4 +109,4 @@ TEST(LinFile, FaultsNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::lin_file_test

@@ -5,7 +5,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::market_file_test {
 namespace {
 
 Matrix read(const std::string& text) {
@@ -105,4 +105,4 @@ TEST(MarketFile, FaultsNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::market_file_test

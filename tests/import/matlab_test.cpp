@@ -9,7 +9,7 @@
 #include "scene/input_error.hpp"
 #include "support/folder.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::matlab_test {
 namespace {
 
 /// A variable of version 4: type, rows, columns, imaginary parts, length of the name; name and numbers.
@@ -72,4 +72,4 @@ TEST_F(Matlab, Faults) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::matlab_test

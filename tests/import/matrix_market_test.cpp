@@ -10,7 +10,7 @@
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::matrix_market_test {
 namespace {
 
 class MatrixMarket : public testing::Test {
@@ -186,4 +186,4 @@ TEST_F(MatrixMarket, OptionsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::matrix_market_test

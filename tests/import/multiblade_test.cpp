@@ -8,7 +8,7 @@
 
 #include "model/multiblade/harmonics.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::multiblade_test {
 namespace {
 
 constexpr double rotor_speed = 1.7;
@@ -127,4 +127,4 @@ TEST(MultibladeNames, OfAllCoordinates) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::multiblade_test

@@ -7,7 +7,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::named_arrays_test {
 namespace {
 
 NamedArray numbers(const std::string& name, const std::vector<std::size_t>& shape,
@@ -146,4 +146,4 @@ TEST(NamedArrays, FaultsNameTheArray) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::named_arrays_test

@@ -9,7 +9,7 @@
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::nastran_test {
 namespace {
 
 /// A matrix 2 x 2 as text of OUTPUT4.
@@ -180,4 +180,4 @@ TEST_F(Nastran, OptionsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::nastran_test

@@ -8,7 +8,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::npy_test {
 namespace {
 
 std::string npy(const std::string& descr, const std::string& shape, const std::string& data,
@@ -99,4 +99,4 @@ TEST(Npy, FaultsNameTheArray) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::npy_test

@@ -9,7 +9,7 @@
 #include "import/op4.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::op4_binary_test {
 namespace {
 
 /// Writes files of all variants.
@@ -163,4 +163,4 @@ TEST(Op4Binary, HugeSizesTakeNoMemory) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::op4_binary_test

@@ -4,7 +4,7 @@
 #include "import/op4.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::op4_text_test {
 namespace {
 
 std::vector<Op4Matrix> read(
@@ -159,4 +159,4 @@ TEST(Op4Text, FaultsNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::op4_text_test

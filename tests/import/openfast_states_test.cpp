@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail {
+namespace eigentrail::test::openfast_states_test {
 namespace {
 
 struct Description {
@@ -45,4 +45,4 @@ TEST(OpenFastStates, Descriptions) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::openfast_states_test

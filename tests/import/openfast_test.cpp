@@ -11,7 +11,7 @@
 #include "scene/input_error.hpp"
 #include "support/folder.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::openfast_test {
 namespace {
 
 std::string file(int i) {
@@ -102,4 +102,4 @@ TEST(OpenFast, OptionsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::openfast_test

@@ -9,7 +9,7 @@
 #include "scene/input_error.hpp"
 #include "support/folder.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::text_lines_test {
 namespace {
 
 TEST(TextLines, EndsOfEverySystem) {
@@ -96,4 +96,4 @@ TEST(TextLines, FilesThatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::text_lines_test

@@ -10,7 +10,7 @@
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::write_import_test {
 namespace {
 
 Imported oscillator(const std::vector<double>& values) {
@@ -129,4 +129,4 @@ TEST(WriteImport, PolynomialsThatDoNotFitLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::write_import_test

@@ -9,7 +9,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::air_test {
 namespace {
 
 constexpr double density = 1.2, chord = 0.4, span = 2.0;
@@ -241,4 +241,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::air_test

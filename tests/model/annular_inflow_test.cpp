@@ -8,7 +8,7 @@
 #include "eigentrail/steady/equilibrium.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::annular_inflow_test {
 namespace {
 
 constexpr double radius = 5.0, chord = 0.3, slope = 5.7, speed = 40.0, density = 1.225;
@@ -186,4 +186,4 @@ TEST(AnnularInflow, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::annular_inflow_test

@@ -7,7 +7,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::beam_test {
 namespace {
 
 /// A twisted beam without anything that holds it. Its coordinates are positions and directors, no others.
@@ -96,4 +96,4 @@ TEST_P(FreeBeam, DampingVanishesUnderRigidMotion) {
 INSTANTIATE_TEST_SUITE_P(Degree, FreeBeam, testing::Values(1, 2));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::beam_test

@@ -6,7 +6,7 @@
 
 #include "support/sample_element.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::element_derivatives_test {
 namespace {
 
 /// Coefficient k of f(h) about 0 by a central difference of second order with step h.
@@ -161,4 +161,4 @@ TEST(Registry, DeclaredDependencesAreThoseOfTheRecords) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::element_derivatives_test

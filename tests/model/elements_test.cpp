@@ -6,7 +6,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::elements_test {
 namespace {
 
 /// A scene that has the effect under test, two free points in general position, and parameters that enter it.
@@ -341,4 +341,4 @@ TEST(Registry, CoincidingSpringEndsAreReportedByName) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::elements_test

@@ -7,7 +7,7 @@
 
 #include "eigentrail/continuation/trace.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::force_model_test {
 namespace {
 
 /// Two freedoms with closed derivatives: M = diag(1, 2 + p^2), f = {-p^2 x0 + x1 rate1 - 3 rate0, -sin(x1) +
@@ -152,4 +152,4 @@ TEST(ForceModel, SizesThatDifferAreRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::force_model_test

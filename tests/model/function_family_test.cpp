@@ -11,7 +11,7 @@
 #include "support/resumed.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::function_family_test {
 namespace {
 
 /// A function with a record of its calls.
@@ -434,4 +434,4 @@ TEST(FunctionFamily, ExtendedPrecisionIsThatOfTheSamePolynomials) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::function_family_test

@@ -9,7 +9,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::matrix_family_test {
 namespace {
 
 constexpr double tolerance = 1e-14;
@@ -339,4 +339,4 @@ TEST(MatrixFamily, ConstraintsThatTurnWithTheParameterTurnTheBasis) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::matrix_family_test

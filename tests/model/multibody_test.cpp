@@ -5,7 +5,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::multibody_test {
 namespace {
 
 TEST(Multibody, AbsentEffectsAreNeverEvaluated) {
@@ -131,4 +131,4 @@ TEST(Multibody, OrderBeyondTheHighestIsRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::multibody_test

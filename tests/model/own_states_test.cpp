@@ -9,7 +9,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::own_states_test {
 namespace {
 
 constexpr double mass = 2.0, beside = 50.0, spring = 30.0, dashpot = 1.5;
@@ -347,4 +347,4 @@ TEST(OwnStates, WorkWithSparseMatrices) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::own_states_test

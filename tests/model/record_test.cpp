@@ -8,7 +8,7 @@
 #include "model/record/evaluation.hpp"
 #include "model/record/recorder.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::record_test {
 namespace {
 
 static_assert(!std::equality_comparable<Recorded>);
@@ -275,4 +275,4 @@ TEST(Programs, ComposeFunctionsWithSeries) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::record_test

@@ -4,7 +4,7 @@
 #include "model/recorded_equations.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::recorded_scenes_test {
 namespace {
 
 const std::string three_springs =
@@ -58,4 +58,4 @@ TEST(RecordedScenes, MomentsThatAreZeroAreNotRecorded) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::recorded_scenes_test

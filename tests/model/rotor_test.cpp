@@ -10,7 +10,7 @@
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::rotor_test {
 namespace {
 
 /// A rotor all of whose quantities depend on p.
@@ -315,4 +315,4 @@ TEST_F(RotorFiles, TablesOfBearingsAreInterpolatedAndTheirErrorIsStated) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::rotor_test

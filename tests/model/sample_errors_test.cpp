@@ -10,7 +10,7 @@
 #include "model/sample_interpolation.hpp"
 #include "support/sampled.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sample_errors_test {
 namespace {
 
 using Function = std::function<double(double)>;
@@ -133,4 +133,4 @@ TEST(SampleErrorOptions, ThreeTimesMoreOrLessOfEachChangesWhatIsStatedLittle) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sample_errors_test

@@ -12,7 +12,7 @@
 #include "support/sampled.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sampled_family_test {
 namespace {
 
 const std::vector<double> uneven{-1.0, -0.7, -0.1, 0.2, 0.9, 1.5, 1.6};
@@ -279,4 +279,4 @@ TEST(SampledFamily, FilesThatDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sampled_family_test

@@ -7,7 +7,7 @@
 #include "model/recorded_equations.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sparse_assembly_test {
 namespace {
 
 /// Blades in a rotating frame, with quantities that change with p; all elements of blades occur.
@@ -78,4 +78,4 @@ TEST(SparseAssembly, OfTwoBladesHasThatOfOneTwice) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sparse_assembly_test

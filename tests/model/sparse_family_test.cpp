@@ -9,7 +9,7 @@
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::sparse_family_test {
 namespace {
 
 void write(Hdf5Writer& file, const std::string& name, const std::vector<double>& data,
@@ -138,4 +138,4 @@ TEST_F(SparseFamilyFile, StatesMayHaveNames) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::sparse_family_test

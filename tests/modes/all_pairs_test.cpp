@@ -9,7 +9,7 @@
 #include "modes/pairs_together.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::all_pairs_test {
 namespace {
 
 constexpr Eigen::Index size = 8;
@@ -125,4 +125,4 @@ INSTANTIATE_TEST_SUITE_P(Coordinates, AllPairsOfFirstOrder,
 INSTANTIATE_TEST_SUITE_P(Seeds, AllPairsOfFamily, testing::Range(1U, 9U));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::all_pairs_test

@@ -8,7 +8,7 @@
 
 #include "eigentrail/modes/invariants.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::block_parts_test {
 namespace {
 
 constexpr std::size_t count = 6;  ///< coefficients
@@ -108,4 +108,4 @@ TEST(GapSeries, FromBothSeriesIsHalfTheirDifferenceSquared) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::block_parts_test

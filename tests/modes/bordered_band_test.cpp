@@ -8,7 +8,7 @@
 
 #include "core/band_matrix.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::bordered_band_test {
 namespace {
 
 constexpr Eigen::Index n = 30;
@@ -96,4 +96,4 @@ TEST(BorderedBand, OfASingularMatrixGivesNothingFinite) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::bordered_band_test

@@ -12,7 +12,7 @@
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::complex_parts_test {
 namespace {
 
 constexpr Eigen::Index m = 4;
@@ -161,4 +161,4 @@ TEST(ComplexPart, BlocksAreSolvedWithTheirAdjoints) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::complex_parts_test

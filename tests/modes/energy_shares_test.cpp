@@ -5,7 +5,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::energy_shares_test {
 namespace {
 
 /// Shares of all modes of a scene where its trace begins, by motion and mode.
@@ -183,4 +183,4 @@ TEST(EnergyShares, MotionInTwoDirectionsIsNamedByBoth) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::energy_shares_test

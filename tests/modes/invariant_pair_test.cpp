@@ -13,7 +13,7 @@
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::invariant_pair_test {
 namespace {
 
 ReducedPencil single(double m, double c, double k) {
@@ -476,4 +476,4 @@ TEST(EigenvalueRemainder, TellsTheRealPartOnTheImaginaryAxisToItsOwnDigits) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::invariant_pair_test

@@ -9,7 +9,7 @@
 #include "eigentrail/modes/block_parts.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::invariants_test {
 namespace {
 
 // Some ten roundings of terms of the size of the result.
@@ -339,4 +339,4 @@ TEST(SeriesOfVectors, ReciprocalTimesItselfIsOne) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::invariants_test

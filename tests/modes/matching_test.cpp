@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace eigentrail {
+namespace eigentrail::test::matching_test {
 namespace {
 
 // Some ten roundings in each product of a handful of terms.
@@ -215,4 +215,4 @@ TEST(OptimalAssignment, CostsWhoseDifferencesOverflowAreRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::matching_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail {
+namespace eigentrail::test::mode_choice_test {
 namespace {
 
 /// Real eigenvalues that crowd out the oscillatory ones, a heavily damped pair, and three lightly damped
@@ -73,4 +73,4 @@ TEST(ModeChoice, TextAndWords) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::mode_choice_test

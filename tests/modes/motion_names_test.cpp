@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace eigentrail {
+namespace eigentrail::test::motion_names_test {
 namespace {
 
 constexpr Complex i(0.0, 1.0);
@@ -65,4 +65,4 @@ TEST(MotionNames, WithoutItsPartnerAComponentStaysAlone) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::motion_names_test

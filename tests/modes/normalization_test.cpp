@@ -6,7 +6,7 @@
 #include <complex>
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::normalization_test {
 namespace {
 
 // Some ten roundings in each product of a handful of terms.
@@ -141,4 +141,4 @@ TEST(NormalizeShape, OfMixedUnitsCountsMassNotComponents) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::normalization_test

@@ -6,7 +6,7 @@
 #include "modes/single_modes.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::pair_factorization_test {
 namespace {
 
 constexpr Eigen::Index n = 6;
@@ -147,4 +147,4 @@ TEST_P(BlockFactors, HaveAnAdjoint) {
 INSTANTIATE_TEST_SUITE_P(Sizes, BlockFactors, testing::Values(2, 3, 4));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::pair_factorization_test

@@ -9,7 +9,7 @@
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::regroup_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -192,4 +192,4 @@ TEST(WithConjugate, KeepsItsColumnsApartWhereThePairReachesTheRealAxis) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::regroup_test

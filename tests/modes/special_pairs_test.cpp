@@ -12,7 +12,7 @@
 #include "modes/single_modes.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::special_pairs_test {
 namespace {
 
 /// K = [[1, p], [-p, 2]]: s^2 = -3/2 -+ sqrt(1/4 - p^2), an exceptional point at p = 1/2. There s = j
@@ -240,4 +240,4 @@ TEST(ReciprocalChart, HoldsTheReciprocalEigenvalues) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::special_pairs_test

@@ -11,7 +11,7 @@
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::spectrum_test {
 namespace {
 
 /// Members with Im s >= 0 and their conjugates.
@@ -241,4 +241,4 @@ TEST(Spectrum, NoFreedomsNoModes) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::spectrum_test

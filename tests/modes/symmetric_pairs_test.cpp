@@ -12,7 +12,7 @@
 #include "modes/pairs_together.hpp"
 #include "support/families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::symmetric_pairs_test {
 namespace {
 
 /// Undamped with symmetric M > 0 and K, frequencies about 1, 1.7, 2.2 ...
@@ -256,4 +256,4 @@ TEST_F(Refused, NegativeMass) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::symmetric_pairs_test

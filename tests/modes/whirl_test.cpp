@@ -8,7 +8,7 @@
 #include "eigentrail/modes/rotor_names.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::whirl_test {
 namespace {
 
 const Complex j(0.0, 1.0);
@@ -123,4 +123,4 @@ TEST(RotorNames, NameTheShaftThatMovesMost) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::whirl_test

@@ -9,7 +9,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::dae_form_test {
 namespace {
 
 constexpr double spectrum_tolerance = 1e-10;
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(Systems, DaeForm,
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::dae_form_test

@@ -5,7 +5,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::pendulum_test {
 namespace {
 
 constexpr double tolerance = 1e-12;  // relative, of every closed form
@@ -97,4 +97,4 @@ TEST_P(Pendulum, SeveralParametersReuseTheFactorizations) {
 INSTANTIATE_TEST_SUITE_P(Lengths, Pendulum, testing::Values(0.01, 0.5, 1.5, 5.0, 1000.0));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::pendulum_test

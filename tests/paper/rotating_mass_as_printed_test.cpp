@@ -12,7 +12,7 @@
 #include "paper/rotating_mass_reference.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::rotating_mass_as_printed_test {
 namespace {
 
 constexpr double m = 50.0, r = 20.0, length = 5.0, e = 1.0, omega = 40.0, a_t = -100.0, a_n = 1000.0;
@@ -199,4 +199,4 @@ TEST_F(PaperAsPrinted, DaeVectorsOf162) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::rotating_mass_as_printed_test

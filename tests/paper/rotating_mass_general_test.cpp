@@ -6,7 +6,7 @@
 #include "paper/rotating_mass_reference.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::rotating_mass_general_test {
 namespace {
 
 constexpr double value_tolerance = 1e-12;  // x0, lambda0, s
@@ -98,4 +98,4 @@ TEST(RotatingMass, LiteralPartialDerivativeOfConstraintsIsWrong) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::rotating_mass_general_test

@@ -6,7 +6,7 @@
 #include "eigentrail/modes/spectrum.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::rotating_mass_special_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -114,4 +114,4 @@ TEST_P(RotatingMassSpecial, SensitivityToSpeedEqualsEqs155To160) {
 INSTANTIATE_TEST_SUITE_P(Alpha, RotatingMassSpecial, testing::Values(0.0, 0.3, 0.785398163397448, 2.0, -1.1));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::rotating_mass_special_test

@@ -6,7 +6,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::spring_pendulum_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -97,4 +97,4 @@ TEST_P(SpringPendulum, FrozenProjectionGivesTheWrongSensitivity) {
 INSTANTIATE_TEST_SUITE_P(Stiffness, SpringPendulum, testing::Values(1.05, 1.5, 2.0, 10.0));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::spring_pendulum_test

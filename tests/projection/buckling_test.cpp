@@ -7,7 +7,7 @@
 #include "eigentrail/steady/equilibrium.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::buckling_test {
 namespace {
 
 /// A column of 100 elements that stands on a clamp, 1212 coordinates, under a growing weight w per length, in
@@ -80,4 +80,4 @@ TEST(BucklingOfLargeScenes, IsFoundWhereTheWholeStiffnessIsSingular) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::buckling_test

@@ -13,7 +13,7 @@
 #include "support/large_scenes.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::large_scenes_test {
 namespace {
 
 Setting cantilever(const OptionTexts& overrides, const std::string& weight = "0") {
@@ -104,4 +104,4 @@ TEST(LargeScenes, RedundantConstraintsAreRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::large_scenes_test

@@ -7,7 +7,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "support/large_families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::mode_entries_test {
 namespace {
 
 /// n independent masses with s^2 = -k: k = 1, 2 and 3 of the modes that are followed, k = 3 + 4 (entry -
@@ -51,4 +51,4 @@ TEST(ModeEntries, AreNotNotedWhereTheyStayAway) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::mode_entries_test

@@ -9,7 +9,7 @@
 #include "support/families.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::nearest_modes_test {
 namespace {
 
 constexpr double accuracy = 1e-12;
@@ -201,4 +201,4 @@ TEST(NearestModes, CoversADistance) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::nearest_modes_test

@@ -9,7 +9,7 @@
 #include "projection/family_pencils.hpp"
 #include "support/large_families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::projection_error_test {
 namespace {
 
 /// Damped, gyroscopic and circulatory: left vectors are not right ones.
@@ -119,4 +119,4 @@ TEST(ProjectionErrors, AreOfSecondOrderInBothVectors) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::projection_error_test

@@ -10,7 +10,7 @@
 #include "support/large_families.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::projection_test {
 namespace {
 
 const SparseFamily& family_of(const TraceSetup& setup) {
@@ -451,4 +451,4 @@ TEST(Projection, ModesInABandAreAllThere) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::projection_test

@@ -8,7 +8,7 @@
 #include "support/large_families.hpp"
 #include "support/large_scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::route_test {
 namespace {
 
 TraceSetup plate(int cells, int modes) {
@@ -97,4 +97,4 @@ TEST(Routes, TheChoiceDoesNotChangeEigenvalues) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::route_test

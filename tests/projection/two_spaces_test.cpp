@@ -10,7 +10,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "support/large_families.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::two_spaces_test {
 namespace {
 
 /// A space of eight dimensions with the columns of both as its vectors.
@@ -91,4 +91,4 @@ TEST(TwoSpaces, MakeTheProjectionOfACirculatoryPlateSmaller) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::two_spaces_test

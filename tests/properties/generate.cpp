@@ -13,7 +13,7 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double low = -0.5, high = 0.5;
+constexpr double range_from = -0.5, range_to = 0.5;
 constexpr int most_points = 6;            ///< planted; crossings with other modes come on top
 constexpr std::size_t most_special = 14;  ///< with those
 constexpr double largest_condition = 30;  ///< of the mixing matrices
@@ -57,8 +57,8 @@ class Generator {
       i += static_cast<std::size_t>(plant(static_cast<int>(remaining), &points_[i]));
     }
     while (left() > 0) filler();
-    family.from = low;
-    family.to = high;
+    family.from = range_from;
+    family.to = range_to;
     family.blocks = blocks_;
     find_special_points(family);
     if (family.special.empty() || family.special.size() > most_special)
@@ -298,7 +298,7 @@ class Generator {
       const Matrix turn = permutation();
       T.push_back(constant * turn * N * turn.transpose());
     }
-    for (const double p : {low, 0.0, high}) {
+    for (const double p : {range_from, 0.0, range_to}) {
       const Matrix at = along ? Matrix(T[0] + p * T[1]) : T[0];
       const auto sigma = Eigen::JacobiSVD<Matrix>(at).singularValues();
       if (sigma[0] > largest_condition * sigma[n_ - 1]) throw UnusableFamily("mixing is badly conditioned");

@@ -29,8 +29,8 @@ Terms terms_of(const MatrixSeries& series, WideComplex p) {
 }
 
 /// The place at one of the two complex parameters of a veering, and how singular the pencil is there.
-struct Place {
-  Place(const Family& family, WideComplex s, WideComplex p) {
+struct WidePlace {
+  WidePlace(const Family& family, WideComplex s, WideComplex p) {
     const Terms M = terms_of(family.M, p), C = terms_of(family.C, p), K = terms_of(family.K, p);
     const WideComplexMatrix P = s * s * M.value + s * C.value + K.value;
     const Eigen::JacobiSVD<WideComplexMatrix> svd(P, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -51,8 +51,8 @@ struct Place {
 double place_rounding(const Family& family, const SpecialPoint& point) {
   if (point.kind != "collision" && point.kind != "veering") return 0.0;
   const WideComplex s(point.s.real(), point.s.imag());
-  const Place above(family, s, WideComplex(point.parameter, point.half_width));
-  const Place below(family, s, WideComplex(point.parameter, -point.half_width));
+  const WidePlace above(family, s, WideComplex(point.parameter, point.half_width));
+  const WidePlace below(family, s, WideComplex(point.parameter, -point.half_width));
   return above.singular_value < below.singular_value ? above.moves : below.moves;
 }
 

@@ -13,7 +13,7 @@
 #include "properties/run_family.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::planted_family_test {
 namespace {
 
 class PlantedFamilies : public testing::TestWithParam<int> {
@@ -255,4 +255,4 @@ TEST(RunFamily, NoticesLabelsThatAreExchanged) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::planted_family_test

@@ -3,7 +3,7 @@
 
 #include "properties/run_family.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::property_test {
 namespace {
 
 class PlantedFamilyTrace : public testing::TestWithParam<int> {};
@@ -44,4 +44,4 @@ INSTANTIATE_TEST_SUITE_P(IllConditioned, PlantedFamilyTrace, testing::Values(336
                          [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::property_test

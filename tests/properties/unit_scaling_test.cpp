@@ -10,7 +10,7 @@
 #include "properties/scaled_model.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::unit_scaling_test {
 namespace {
 
 /// Events by their place: the order in which those of one step are found is not that of their places.
@@ -77,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Scaled, InUnits, testing::ValuesIn(other_units()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::unit_scaling_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eigentrail::test {
+namespace eigentrail::test::balance_test {
 namespace {
 
 /// A single freedom with mass among massless ones: with the stiffness of all of them its frequency has no
@@ -29,4 +29,4 @@ TEST(Balance, ScalesTheFreedomWithMassToTheOthers) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::balance_test

@@ -11,7 +11,7 @@
 #include "eigentrail/reduction/independent_parts.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::conjugate_parts_test {
 namespace {
 
 constexpr double rounding = 1e-12;
@@ -210,4 +210,4 @@ TEST(ConjugateParts, JoinedAreRealPartsInTheSameCoordinates) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::conjugate_parts_test

@@ -11,7 +11,7 @@
 
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::independent_parts_test {
 namespace {
 
 constexpr double rounding = 1e-11;
@@ -338,4 +338,4 @@ TEST(IndependentParts, OfAPencilHaveItsEigenvalues) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::independent_parts_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::reduced_pencil_test {
 namespace {
 
 MatrixSeries random_series(std::size_t length, Eigen::Index rows, Eigen::Index columns, unsigned seed) {
@@ -62,4 +62,4 @@ TEST(ReducedPencil, IdentityCopies) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::reduced_pencil_test

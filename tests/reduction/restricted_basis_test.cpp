@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::restricted_basis_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -81,4 +81,4 @@ TEST(RestrictedBasis, IsThatOfTheMotionsWithoutConstraints) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::restricted_basis_test

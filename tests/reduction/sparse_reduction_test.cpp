@@ -6,7 +6,7 @@
 
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::sparse_reduction_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -130,4 +130,4 @@ TEST(SparseReduction, WithoutConstraintsThePencilIsCopied) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::sparse_reduction_test

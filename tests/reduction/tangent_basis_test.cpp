@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::tangent_basis_test {
 namespace {
 
 constexpr double tolerance = 1e-13;
@@ -108,4 +108,4 @@ TEST(TangentBasis, RandomChoiceSpansTheSameSpace) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::tangent_basis_test

@@ -8,7 +8,7 @@
 #include "eigentrail/reduction/tangent_basis.hpp"
 #include "reduction/separated_basis.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::turned_frame_test {
 namespace {
 
 Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
@@ -145,4 +145,4 @@ TEST(TurnedFrame, IsNoneWhereTheTangentSpaceTurnsTooFar) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::turned_frame_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eigentrail {
+namespace eigentrail::test::piecewise_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -126,4 +126,4 @@ TEST(PiecewiseSteps, LostInTheLengthOfThePathGiveNumbers) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::piecewise_test

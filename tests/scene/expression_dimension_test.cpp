@@ -8,7 +8,7 @@
 #include "eigentrail/scene/scene.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::expression_dimension_test {
 namespace {
 
 using test::contains;
@@ -137,4 +137,4 @@ TEST(ParameterDefinition, MayNotAddDifferentDimensions) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::expression_dimension_test

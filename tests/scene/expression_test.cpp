@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eigentrail {
+namespace eigentrail::test::expression_test {
 namespace {
 
 using S = Series<double, 4>;
@@ -296,4 +296,4 @@ TEST(Expression, TheDeepestStackAcceptedIsEvaluatedOnEveryScalar) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::expression_test

@@ -9,7 +9,7 @@
 #include "eigentrail/scene/units.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::limits_test {
 namespace {
 
 using test::contains;
@@ -80,4 +80,4 @@ TEST(SceneLimits, HarmonicsOfAParameterThatDoesNotExistAreNoReasonToEnd) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::limits_test

@@ -5,7 +5,7 @@
 
 #include "scene/interval.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::narrow_places_test {
 namespace {
 
 /// Places of an expression of p, on the range 0 to 1 if no other is given.
@@ -88,4 +88,4 @@ TEST(Interval, EnclosesEveryFunction) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::narrow_places_test

@@ -7,7 +7,7 @@
 
 #include "eigentrail/core/series.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::parameters_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -180,4 +180,4 @@ TEST(Parameters, DiamondsOfDefinitionsAreSearchedOnce) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::parameters_test

@@ -10,7 +10,7 @@
 #include "eigentrail/scene/limits.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::scene_test {
 namespace {
 
 using test::contains;
@@ -215,4 +215,4 @@ TEST_F(ReadScene, RefusesFilesThatAreTooLarge) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::scene_test

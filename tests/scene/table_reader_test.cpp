@@ -5,7 +5,7 @@
 #include "eigentrail/scene/scene.hpp"
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::table_reader_test {
 namespace {
 
 using test::contains;
@@ -172,4 +172,4 @@ TEST_F(TableReaderTest, FailPointsAtTheTableWhenTheKeyIsAbsent) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::table_reader_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace eigentrail {
+namespace eigentrail::test::units_test {
 namespace {
 
 // A product of a few factors, each rounded once.
@@ -153,4 +153,4 @@ TEST(UnitFactor, IsPositiveAndFiniteForLargePowers) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::units_test

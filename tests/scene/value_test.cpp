@@ -6,7 +6,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::value_test {
 namespace {
 
 using test::contains;
@@ -167,4 +167,4 @@ TEST(ParseToml, DotsInTextsAndCommentsAreNotTakenForKeys) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::value_test

@@ -5,7 +5,7 @@
 
 #include "stability/boundaries.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_closed_form_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -111,4 +111,4 @@ TEST(BoundaryClosedForm, CornerWhereAnotherModeTakesOver) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_closed_form_test

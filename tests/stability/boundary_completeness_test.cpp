@@ -7,7 +7,7 @@
 #include "eigentrail/core/text.hpp"
 #include "stability/boundaries.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_completeness_test {
 namespace {
 
 /// One freedom without damping on a circle; unstable inside when `sign` is "", stable when it is "-".
@@ -98,4 +98,4 @@ TEST(BoundaryCompleteness, NothingToFind) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_completeness_test

@@ -5,7 +5,7 @@
 
 #include "stability/boundaries.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_ends_test {
 namespace {
 
 /// s^2 + P s + Q: flutter on P = 0, Q > 0, divergence on Q = 0, both zero at the origin.
@@ -144,4 +144,4 @@ TEST(BoundaryEnds, ScenesWithoutEquilibriumSomewhereSaySo) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_ends_test

@@ -8,7 +8,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "stability/boundaries.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_options_test {
 namespace {
 
 const std::string damped = freedoms({{"P + Q", "4"}});
@@ -88,4 +88,4 @@ TEST(BoundaryOptions, FaultsOfTheEventsTableHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_options_test

@@ -10,7 +10,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_rotating_mass_test {
 namespace {
 
 /// Largest real part of all eigenvalues, from an equilibrium and null space computed here and QZ on the
@@ -128,4 +128,4 @@ TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_rotating_mass_test

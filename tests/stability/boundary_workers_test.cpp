@@ -6,7 +6,7 @@
 
 #include "stability/boundaries.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_workers_test {
 namespace {
 
 /// Three circles of flutter of different modes that intersect, and a line of divergence.
@@ -65,4 +65,4 @@ TEST(BoundaryWorkers, LinesThatWereSearchedApartGiveTheSame) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_workers_test

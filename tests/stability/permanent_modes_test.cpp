@@ -7,7 +7,7 @@
 #include "eigentrail/stability/stable_ranges.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::permanent_modes_test {
 namespace {
 
 using test::make_setting;
@@ -90,4 +90,4 @@ TEST(PermanentModes, NumbersOfModesDoNotCountZerosUnlessTheyAreFollowed) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::permanent_modes_test

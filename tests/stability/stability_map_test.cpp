@@ -10,7 +10,7 @@
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::stability_map_test {
 namespace {
 
 struct Window {
@@ -310,4 +310,4 @@ TEST(StabilityMap, OfSomeModesIsThatOfTheWholeModel) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::stability_map_test

@@ -10,7 +10,7 @@
 #include "hard_cases/catalogue.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::stable_ranges_test {
 namespace {
 
 struct TracedRanges {
@@ -288,4 +288,4 @@ free_length = 1
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::stable_ranges_test

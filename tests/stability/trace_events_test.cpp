@@ -8,7 +8,7 @@
 #include "hard_cases/catalogue.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::trace_events_test {
 namespace {
 
 /// x'' + c x' + k x = 0 with c = c0 + c1 p + c2 p^2; the damping ratio is c / (2 sqrt(k)).
@@ -315,4 +315,4 @@ TEST(EventOptions, AResonanceNeedsAFrequency) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::trace_events_test

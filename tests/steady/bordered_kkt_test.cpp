@@ -10,7 +10,7 @@
 
 #include "eigentrail/steady/path_plane.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::bordered_kkt_test {
 namespace {
 
 constexpr double tolerance = 1e-11;
@@ -157,4 +157,4 @@ TEST(BorderedKkt, SingularSystemHasNoSolution) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::bordered_kkt_test

@@ -7,7 +7,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::equilibrium_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -244,4 +244,4 @@ TEST(Equilibrium, BetweenNearlyParallelRodsIsFoundAtEveryLength) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::equilibrium_test

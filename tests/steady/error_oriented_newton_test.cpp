@@ -10,7 +10,7 @@
 #include "steady/scalar_problem.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::error_oriented_newton_test {
 namespace {
 
 TEST(ErrorOrientedNewton, DampsWherePlainNewtonDiverges) {
@@ -52,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Weights, SlenderBeams,
                          testing::Values(1.0, 1.5, 2.0, 2.4, 2.5, 2.51, 3.0, 10.0, 30.0));
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::error_oriented_newton_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace eigentrail {
+namespace eigentrail::test::kinsol_solver_test {
 namespace {
 
 /// atan(u) = 0: Newton's method without damping diverges from |u| > 1.39.
@@ -84,4 +84,4 @@ TEST(KinsolSolver, ShortensTheStepWhereTheResidualIsNotDefined) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::kinsol_solver_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace eigentrail {
+namespace eigentrail::test::kkt_factorization_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -87,4 +87,4 @@ TEST(KktFactorization, ConstraintsAloneCannotSolve) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::kkt_factorization_test

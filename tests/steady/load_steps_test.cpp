@@ -10,7 +10,7 @@
 #include "steady/heavy_elastica.hpp"
 #include "steady/scalar_problem.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::load_steps_test {
 namespace {
 
 TEST(LoadSteps, ArriveWhereWholeStepsOfNewtonsMethodDiverge) {
@@ -48,4 +48,4 @@ TEST(LoadSteps, FindALargeBeamThatBendsFarUnderItsWeight) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::load_steps_test

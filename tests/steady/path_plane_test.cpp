@@ -8,7 +8,7 @@
 #include "eigentrail/core/series.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::path_plane_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -293,4 +293,4 @@ TEST(PathPlane, ValuesThatAreNotFiniteAreReported) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::path_plane_test

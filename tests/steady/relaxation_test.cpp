@@ -9,7 +9,7 @@
 
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::relaxation_test {
 namespace {
 
 std::string triple(double a, double b, double c) {
@@ -147,4 +147,4 @@ TEST(Relaxation, WithoutAnEquilibriumDoesNotComeToRest) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::relaxation_test

@@ -11,7 +11,7 @@
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::rotor_trim_test {
 namespace {
 
 constexpr double blades = 4.0, density = 1.2, chord = 0.3, slope = 5.7, root = 0.7, tip = 4.2, hinge = 0.2,
@@ -369,4 +369,4 @@ TEST(RotorTrim, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::rotor_trim_test

@@ -12,7 +12,7 @@
 #include "eigentrail/steady/kkt_factorization.hpp"
 #include "steady/sparse_bordered_kkt.hpp"
 
-namespace eigentrail {
+namespace eigentrail::test::sparse_kkt_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -173,4 +173,4 @@ TEST(SparseKkt, TheSingularityTestHasASimpleZeroToTheLastDigits) {
 }
 
 }  // namespace
-}  // namespace eigentrail
+}  // namespace eigentrail::test::sparse_kkt_test

@@ -10,7 +10,7 @@
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::trim_test {
 namespace {
 
 constexpr double g = 9.81, mass = 2.0, arm = 0.7, inertia = 0.01, stiffness = 3.0;
@@ -559,4 +559,4 @@ TEST(Trim, FamilyOfMatricesIsRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::trim_test

@@ -9,7 +9,7 @@
 #include "eigentrail/store/output_file.hpp"
 #include "stability/boundaries.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::boundary_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TEST_F(BoundaryFileTest, ParametersNamedLikeADatasetAreRefused) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::boundary_file_test

@@ -15,7 +15,7 @@
 #include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::loci_file_test {
 namespace {
 
 class LociFileTest : public testing::Test {
@@ -352,4 +352,4 @@ TEST_F(LociFileTest, OnlyLociFilesMayBeReplaced) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::loci_file_test

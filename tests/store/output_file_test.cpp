@@ -14,7 +14,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "store/output_lock.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::output_file_test {
 namespace {
 
 class OutputFileTest : public testing::Test {
@@ -160,4 +160,4 @@ TEST_F(OutputFileTest, LockIsHeldByOneAndGivenBack) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::output_file_test

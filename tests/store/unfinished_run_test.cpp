@@ -10,7 +10,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "support/folder.hpp"
 
-namespace eigentrail::test {
+namespace eigentrail::test::unfinished_run_test {
 namespace {
 
 const SharedRun run{"map", "scene.toml", {{"version", "1"}, {"scene", "a = 1\nb = 2"}, {"--to", "3"}}, 5};
@@ -130,4 +130,4 @@ TEST_F(UnfinishedRuns, HaveEndedWhereTheOutputIsTheirs) {
 }
 
 }  // namespace
-}  // namespace eigentrail::test
+}  // namespace eigentrail::test::unfinished_run_test
