@@ -44,12 +44,24 @@ std::recursive_mutex& turn() {
 }
 
 /// Access properties of a file that stays in memory and is never written to disk by HDF5, because HDF5 does
-/// not recover from write errors. Memory grows in increments of 1 MiB.
+/// not recover from write errors. Memory grows in increments of 64 KiB.
 Handle memory_access() {
-  constexpr std::size_t increment = 1u << 20u;
+  constexpr std::size_t increment = 1u << 16u;
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make properties of access");
   check(H5Pset_fapl_core(access, increment, false), "keep a file in memory");
   return access;
+}
+
+/// Properties of a transfer that converts elements in pieces of this size: HDF5 clears the whole buffer, by
+/// default of 1 MiB, at every write of texts.
+hid_t small_buffer() {
+  static const Handle properties = [] {
+    constexpr std::size_t bytes = 4096;
+    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "make properties of a transfer");
+    check(H5Pset_buffer(transfer, bytes, nullptr, nullptr), "set the buffer of a transfer");
+    return transfer;
+  }();
+  return properties;
 }
 
 /// HDF5 treats files of equal name as the same file, so every name gets a running number.
@@ -90,12 +102,12 @@ void write_text_attribute(hid_t object, const std::string& name, const std::stri
   write_attribute(object, name, memory_type(ElementType::text), &text);
 }
 
-/// Rows per chunk: about 16 KiB, between 1 and 1024 rows. Files have about thirty growing datasets, most of
-/// them small.
+/// Rows per chunk: about 2 KiB, at least one. Files have about thirty growing datasets, most of them of few
+/// rows, and each takes a whole chunk.
 hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
   std::uint64_t row = element_size;
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
-  return std::clamp<std::uint64_t>(16384 / std::max<std::uint64_t>(row, 1), 1, 1024);
+  return std::max<std::uint64_t>(2048 / std::max<std::uint64_t>(row, 1), 1);
 }
 
 }  // namespace
@@ -166,7 +178,7 @@ void Hdf5Writer::Implementation::write(const std::string& name, std::uint64_t fi
   check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), action);
   const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose,
                       action);
-  check(H5Dwrite(set, memory_type(type), memory, space, H5P_DEFAULT, data), action);
+  check(H5Dwrite(set, memory_type(type), memory, space, small_buffer(), data), action);
 }
 
 void Hdf5Writer::create_dataset(const DatasetSpec& spec) {

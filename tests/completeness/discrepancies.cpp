@@ -10,8 +10,8 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double at_once = 1e-9;     ///< of the range, between a collision and a divergence
-constexpr double on_axis = 1e-6;     ///< |Im s| / |s| of a collision on the real axis
+constexpr double at_once = 1e-9;  ///< of the range, between a collision and a divergence
+constexpr double on_axis = 1e-6;  ///< |Im s| / |s| of a collision on the real axis
 
 std::string place(const std::string& kind, double p, Complex s) {
   std::ostringstream text;

@@ -46,7 +46,8 @@ class MasslessGenerator {
       of.C[0].topLeftCorner(n - m, n - m) = damped + size * skew(n - m);
     }
     for (MatrixSeries* series : {&of.M, &of.C, &of.K}) {
-      for (Matrix& coefficient : *series) coefficient = (coefficient / massless_quantum).array().round() * massless_quantum;
+      for (Matrix& coefficient : *series)
+        coefficient = (coefficient / massless_quantum).array().round() * massless_quantum;
     }
     family.matrices = uniform(0.0, 1.0) < 0.5 ? of : congruent(of, n);
     return family;

@@ -122,7 +122,8 @@ HardCase whirl_anisotropic(const std::string& name, double d, std::vector<Specia
   Family family{{identity(2)},
                 {d * identity(2), 2.0 * quarter_turn()},
                 {diagonal({0.9, 1.1}), Matrix::Zero(2, 2), -identity(2)}};
-  HardCase result = family_case(name, d == 0.0 ? own_closed_form : computed, 0.5, 1.5, family, std::move(special));
+  HardCase result =
+      family_case(name, d == 0.0 ? own_closed_form : computed, 0.5, 1.5, family, std::move(special));
   if (d != 0.0) return result;
   set_spectrum(result, [](Wide p) {
     // mu^2 - (2 + 2 p^2) mu + (k1 - p^2)(k2 - p^2) = 0; the small root from the product.

@@ -18,7 +18,8 @@ std::function<WideComplex(Wide)> oscillation(const std::function<Wide(Wide)>& mu
 /// K = [[1 + p, eps], [eps, 1 - p]]: s^2 = -(1 +- sqrt(p^2 + eps^2)), exceptional points p = +- j eps.
 HardCase veering(const std::string& name, double eps) {
   const Family family{{rows({{1, 0}, {0, 1}})}, {}, {rows({{1, eps}, {eps, 1}}), diagonal({1, -1})}};
-  HardCase result = family_case(name, own_closed_form, -0.5, 0.5, family, {{"veering", 0.0, unit_stiffness, eps}});
+  HardCase result =
+      family_case(name, own_closed_form, -0.5, 0.5, family, {{"veering", 0.0, unit_stiffness, eps}});
   const Wide coupling = eps;
   const auto upper = [coupling](Wide p) { return 1 + std::hypot(p, coupling); };
   const auto lower = [coupling](Wide p) { return 1 - std::hypot(p, coupling); };
@@ -29,7 +30,8 @@ HardCase veering(const std::string& name, double eps) {
 
 /// Modes with mu = 1 + p and 1 - p that cross at p = 0.
 HardCase crossing(const std::string& name, const Family& family) {
-  HardCase result = family_case(name, own_closed_form, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
+  HardCase result =
+      family_case(name, own_closed_form, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
   set_spectrum(result, [](Wide p) { return undamped_pairs({1 + p, 1 - p}); });
   set_branches(result,
                {oscillation([](Wide p) { return 1 + p; }), oscillation([](Wide p) { return 1 - p; })});
@@ -48,8 +50,8 @@ HardCase hidden_crossing() {
 HardCase permanent_doublet() {
   const Family family{
       {Matrix::Identity(3, 3)}, {}, {Matrix::Identity(3, 3), Matrix::Constant(3, 3, 1.0 / 3.0)}};
-  HardCase result =
-      family_case("H04_permanent_doublet", own_closed_form, -0.5, 0.5, family, {{"crossing", 0.0, unit_stiffness}});
+  HardCase result = family_case("H04_permanent_doublet", own_closed_form, -0.5, 0.5, family,
+                                {{"crossing", 0.0, unit_stiffness}});
   set_spectrum(result, [](Wide p) { return undamped_pairs({1 + p, 1, 1}); });
   const auto one = oscillation([](Wide) { return Wide(1); });
   set_branches(result, {oscillation([](Wide p) { return 1 + p; }), one, one});
