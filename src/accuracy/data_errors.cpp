@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "accuracy/eigen_triples.hpp"
+#include "core/gaps.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
@@ -61,9 +62,7 @@ class ErrorSampler {
   /// The gap between samples that holds p.
   std::size_t gap_of(double p) const {
     const std::vector<double>& all = errors_.values();
-    if (all.size() < 2) return 0;
-    const auto above = std::upper_bound(all.begin() + 1, all.end() - 1, p * factor_);
-    return static_cast<std::size_t>(above - all.begin()) - 1;
+    return all.size() < 2 ? 0 : eigentrail::gap_of(all, p * factor_);
   }
 
   /// Share of the largest smooth error between two samples that is there at p.

@@ -1,4 +1,5 @@
 #include "model/beam_axis.hpp"
+#include "core/gaps.hpp"
 
 #include <algorithm>
 
@@ -46,8 +47,7 @@ ShapeFunctions shape_functions(int degree, double xi) {
 }
 
 SmoothWeights smooth_weights(const std::vector<double>& span, double s) {
-  const auto above = std::upper_bound(span.begin() + 1, span.end() - 1, s);
-  const auto right = static_cast<std::size_t>(above - span.begin());
+  const std::size_t right = gap_of(span, s) + 1;
   const double h = span[right] - span[right - 1];
   const double t = (s - span[right - 1]) / h;
   SmoothWeights result{std::vector<double>(span.size(), 0.0), std::vector<double>(span.size(), 0.0)};

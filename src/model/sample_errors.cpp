@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gaps.hpp"
 #include "core/orthonormal.hpp"
 #include "model/gap_estimators.hpp"
 #include "model/sample_interpolation.hpp"
@@ -206,8 +207,7 @@ double InterpolationErrors::place_of_largest_error(std::size_t gap, double from,
 double InterpolationErrors::shape(double x) const {
   if (values_.size() < 2) return 1.0;
   const RationalInterpolant& interpolant = piece_at(pieces_, x).interpolant;
-  const auto above = std::upper_bound(values_.begin() + 1, values_.end() - 1, x);
-  const auto gap = static_cast<std::size_t>(above - values_.begin()) - 1;
+  const std::size_t gap = gap_of(values_, x);
   const double largest =
       interpolant.error_factor(place_of_largest_error(gap, values_[gap], values_[gap + 1]));
   const double share = std::min(1.0, interpolant.error_factor(x) / largest);

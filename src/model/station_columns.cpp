@@ -1,16 +1,15 @@
 #include "model/station_columns.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "core/gaps.hpp"
 #include "model/station_file.hpp"
 
 namespace eigentrail {
 
 std::vector<StationShare> station_shares(const std::vector<double>& span, double s) {
   if (span.size() == 1) return {{0, 1.0}};
-  const auto above = std::upper_bound(span.begin() + 1, span.end() - 1, s);
-  const auto right = static_cast<std::size_t>(above - span.begin());
+  const std::size_t right = gap_of(span, s) + 1;
   const double weight = (s - span[right - 1]) / (span[right] - span[right - 1]);
   return {{right - 1, 1.0 - weight}, {right, weight}};
 }

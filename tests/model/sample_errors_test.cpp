@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/gaps.hpp"
 #include "model/sample_interpolation.hpp"
 #include "support/sampled.hpp"
 
@@ -73,9 +74,8 @@ Found study(const SampleErrorOptions& options) {
           for (Eigen::Index j = 0; j < weights.size(); ++j)
             s += weights[j] * data.A[static_cast<std::size_t>(j)](0, 0);
           const EigenTriple triple{s, ComplexVector::Ones(1), ComplexVector::Ones(1)};
-          const auto above = std::upper_bound(data.values.begin() + 1, data.values.end() - 1, p);
-          const auto gap = static_cast<std::size_t>(above - data.values.begin()) - 1;
-          const double stated = errors.between(gap, {&triple, 1}).interpolation(errors.shape(p))[0];
+          const double stated =
+              errors.between(gap_of(data.values, p), {&triple, 1}).interpolation(errors.shape(p))[0];
           ratios.push_back((stated + 1e-13) / std::max(std::abs(s - truth(p)), 1e-13));
         }
       }

@@ -1,6 +1,5 @@
 #include "continuation/events/overlooked_collision.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -40,8 +39,7 @@ bool overlooks_collision(const Step& step) {
   for (std::size_t i = 0; i < step.left->tracks.size(); ++i) {
     const Track& left = step.left->tracks[i];
     const Track& right = step.right.tracks[i];
-    const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
-    if (meets || !left.pair.is_real || left.size() < 2) continue;
+    if (step.meets(i) || !left.pair.is_real || left.size() < 2) continue;
     const auto before = count_real(left);
     const auto behind = count_real(right.functions.col(0), right.roots, function_rounding(right.pair.Lambda));
     if (before && behind && *before != *behind) return true;

@@ -1,6 +1,7 @@
 // One step of the trace (two neighbouring points), and the judgement whether it is accepted.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct Step {
   std::vector<std::size_t> meeting = {};  ///< tracks whose eigenvalues meet on the right end
   /// Length of the accurate step that was cut to this one; 0 where it is not part of one.
   double whole = 0.0;
+
+  /// Whether eigenvalues of this track meet on the right end.
+  bool meets(std::size_t track) const {
+    return std::find(meeting.begin(), meeting.end(), track) != meeting.end();
+  }
 };
 
 /// Whether a step is accepted, and if not, why.

@@ -59,9 +59,8 @@ double worst_ratio(const PathProblem& problem, double tolerance, const Step& ste
   const double smallest = place_of_least_magnitude(dense.series(0.0, degree));
   // Where roots of a block coincide, the error of a single root has no bound, although the functions of the
   // block are accurate.
-  const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
   const double begin = track.departure ? beside_meeting : 0.0;
-  const double end = meets ? 1.0 - beside_meeting : 1.0;
+  const double end = step.meets(i) ? 1.0 - beside_meeting : 1.0;
   double worst = 0.0;
   for (const double t : {begin, 0.5, end, smallest}) {
     const ComplexVector functions = dense(t);

@@ -100,8 +100,7 @@ Verdict check_shapes(const PathProblem& problem, const Step& step, const std::ve
 /// decides which is which behind it.
 bool are_exchanged_by_rounding(const PathProblem& problem, const Step& step, std::size_t i) {
   const Track& track = step.left->tracks[i];
-  const bool meets = std::find(step.meeting.begin(), step.meeting.end(), i) != step.meeting.end();
-  if (track.size() != 2 || meets || track.departure) return false;
+  if (track.size() != 2 || step.meets(i) || track.departure) return false;
   const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
   const auto are_one = [&](double t) {
     const ComplexVector functions = dense(t), roots = block_roots(functions);

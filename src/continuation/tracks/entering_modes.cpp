@@ -138,8 +138,7 @@ int number_growing_guards(const PathProblem& problem, const PathNode& right, Pat
       if (mode != Track::guard || is_lower || !(end.roots[i].real() > rounding[i])) continue;
       mode = numbers.count++;
       ++found;
-      Eigen::Index partner = i;
-      if (end.pair.is_real) (end.roots.array() - std::conj(end.roots[i])).abs().minCoeff(&partner);
+      const Eigen::Index partner = end.pair.is_real ? conjugate_of(end.roots, i) : i;
       if (partner != i) modes[static_cast<std::size_t>(partner)] = Track::no_mode;
     }
   }

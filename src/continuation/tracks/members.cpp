@@ -30,6 +30,12 @@ std::vector<Complex> roots_of(const Track& track, const std::vector<int>& member
   return roots;
 }
 
+Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member) {
+  Eigen::Index conjugate = member;
+  (roots.array() - std::conj(roots[member])).abs().minCoeff(&conjugate);
+  return conjugate;
+}
+
 Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,
                          const RoundingThresholds& thresholds) {
   return root_errors(functions, roots,

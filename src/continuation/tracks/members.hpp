@@ -17,6 +17,9 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
 /// The eigenvalues of a track with these indices.
 std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members);
 
+/// Index of the conjugate of an eigenvalue of a real block: its own, of a real one.
+Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member);
+
 /// Errors of the eigenvalues of a track by rounding of the entries of the pencil, in its chart, in the order
 /// of `roots`: those that its functions have at the point or near it.
 Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,

@@ -5,6 +5,7 @@
 
 #include "continuation/step/shared_basis.hpp"
 #include "continuation/tracks/eigenvalue_branches.hpp"
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
@@ -38,8 +39,7 @@ void forget_partner(int mode, ModeNumbers& numbers) {
 void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
   for (Eigen::Index i = 0; i < roots.size(); ++i) {
     if (roots[i].imag() == 0.0) continue;
-    Eigen::Index j = 0;
-    (roots.array() - std::conj(roots[i])).abs().minCoeff(&j);
+    const Eigen::Index j = conjugate_of(roots, i);
     if (j <= i) continue;
     int& a = track.modes[static_cast<std::size_t>(i)];
     int& b = track.modes[static_cast<std::size_t>(j)];

@@ -235,8 +235,7 @@ std::vector<std::vector<int>> by_label(const std::vector<int>& labels) {
 std::vector<int> conjugates_of(const Track& track) {
   std::vector<int> conjugates(static_cast<std::size_t>(track.size()));
   for (Eigen::Index i = 0; i < track.size(); ++i) {
-    Eigen::Index j = i;
-    if (track.pair.is_real) (track.roots.array() - std::conj(track.roots[i])).abs().minCoeff(&j);
+    const Eigen::Index j = track.pair.is_real ? conjugate_of(track.roots, i) : i;
     conjugates[static_cast<std::size_t>(i)] = static_cast<int>(j);
   }
   return conjugates;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/gaps.hpp"
 #include "model/rotor/tabulated_factor.hpp"
 
 namespace eigentrail {
@@ -13,11 +14,6 @@ struct OneTable {
   std::vector<SamplePiece> pieces;  ///< one
   std::array<PencilSamples, 3> samples;
   std::unique_ptr<InterpolationErrors> errors = nullptr;
-
-  std::size_t gap_at(double x) const {
-    const auto above = std::upper_bound(values.begin() + 1, values.end() - 1, x);
-    return static_cast<std::size_t>(above - values.begin()) - 1;
-  }
 };
 
 class TableErrors final : public SampleErrors {
@@ -39,7 +35,7 @@ class TableErrors final : public SampleErrors {
     const Vector none = Vector::Zero(count);
     SampleBounds sum{none, none, none, none, none};
     for (const auto& table : tables_) {
-      const SampleBounds one = table->errors->between(table->gap_at(middle), triples);
+      const SampleBounds one = table->errors->between(gap_of(table->values, middle), triples);
       sum.smooth += one.smooth;
       sum.rough += one.rough;
       sum.digits += one.digits;
@@ -57,7 +53,7 @@ class TableErrors final : public SampleErrors {
 
   double place_of_largest_error(std::size_t, double from, double to) const override {
     const OneTable& first = *tables_.front();
-    return first.errors->place_of_largest_error(first.gap_at(0.5 * (from + to)), from, to);
+    return first.errors->place_of_largest_error(gap_of(first.values, 0.5 * (from + to)), from, to);
   }
 
  private:
