@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "hard_cases/family.hpp"
 #include "hard_cases/parts.hpp"
 
 namespace eigentrail::test {

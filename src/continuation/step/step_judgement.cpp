@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/step/least_magnitude.hpp"
+#include "continuation/step/shared_basis.hpp"
 #include "continuation/step/step_certificate.hpp"
 #include "continuation/step/step_error.hpp"
 #include "continuation/tracks/members.hpp"
