@@ -68,7 +68,7 @@ class OutputFiles(CommandTest):
     def test_what_appears_meanwhile_is_kept(self):
         self.write("scene.toml", BLADE)
         with subprocess.Popen([PROGRAM, "accuracy", "scene.toml", "-o", "out.h5", "-q", "--tolerances", "1e-3", "--orders", "1", "--grids",
-                               "none", "--repeat", "50"], cwd=self.folder, stderr=subprocess.PIPE, text=True) as run:
+                               "none", "--repeat", "500"], cwd=self.folder, stderr=subprocess.PIPE, text=True) as run:
             time.sleep(0.3)
             self.assertIsNone(run.poll())
             self.write("out.h5", "mine")
