@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 
 #include "accuracy/extended_pencil.hpp"
 #include "eigentrail/modes/spectrum.hpp"
@@ -14,8 +16,8 @@ namespace {
 constexpr double close = 1e-3;
 
 ExtendedComplexMatrix multiply(const ExtendedMatrix& B, const ExtendedComplexMatrix& Z) {
-  const ExtendedMatrix real = B * Z.real();
-  const ExtendedMatrix imag = B * Z.imag();
+  const ExtendedMatrix real = B.lazyProduct(Z.real());
+  const ExtendedMatrix imag = B.lazyProduct(Z.imag());
   ExtendedComplexMatrix product(B.rows(), Z.cols());
   product.real() = real;
   product.imag() = imag;
@@ -42,14 +44,36 @@ double refine_pair(const ExtendedPencil& pencil, const InvariantPair& pair, doub
   const ExtendedComplexMatrix W1 = to_extended(pair.W.bottomRows(n).adjoint());
   ComplexMatrix dZ, dLambda;
   return refine_to_rounding([&] {
-    const ExtendedComplexMatrix slope = multiply(pencil.M, Z) * Lambda + multiply(pencil.C, Z);
-    const ExtendedComplexMatrix residual = slope * Lambda + multiply(pencil.K, Z);
-    const ExtendedComplexMatrix defect = W0 * Z + (W1 * Z) * Lambda - ExtendedComplexMatrix::Identity(k, k);
+    const ExtendedComplexMatrix slope = multiply(pencil.M, Z).lazyProduct(Lambda) + multiply(pencil.C, Z);
+    const ExtendedComplexMatrix residual = slope.lazyProduct(Lambda) + multiply(pencil.K, Z);
+    const ExtendedComplexMatrix W1Z = W1.lazyProduct(Z);
+    const ExtendedComplexMatrix defect =
+        W0.lazyProduct(Z) + W1Z.lazyProduct(Lambda) - ExtendedComplexMatrix::Identity(k, k);
     pair.factors->solve(-rounded(residual), -rounded(defect), dZ, dLambda);
     Z += to_extended(dZ);
     Lambda += to_extended(dLambda);
     return dLambda.norm() / std::max(pair.Lambda.norm(), reference);
   });
+}
+
+/// Makes values that are real or conjugate but for rounding exactly so.
+void make_conjugate(std::vector<ExtendedComplex>& values) {
+  const auto imag = [](const ExtendedComplex& s) { return abs(s.imag()); };
+  std::ranges::sort(values, std::greater(), imag);
+  for (std::span<ExtendedComplex> rest(values); !rest.empty();) {
+    ExtendedComplex& one = rest.front();
+    const auto distance = [&](const ExtendedComplex& other) {
+      return std::abs(to_double(other - std::conj(one)));
+    };
+    ExtendedComplex& partner = *std::ranges::min_element(rest, {}, distance);  // itself if it is real
+    const bool is_real = &partner == &one;
+    one = is_real ? one.real() : (one + std::conj(partner)) / ExtendedComplex(2.0);
+    if (!is_real) {
+      partner = std::conj(one);
+      std::swap(rest[1], partner);
+    }
+    rest = rest.subspan(is_real ? 1 : 2);
+  }
 }
 
 /// Eigenvalues of a block. Those of a real block are exactly real or conjugate.
@@ -59,12 +83,13 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
   // The distances from the mean keep more digits.
   ExtendedComplex mean = Lambda.trace() / ExtendedComplex(static_cast<double>(k));
   if (real) mean = mean.real();
-  const ExtendedComplexMatrix apart = Lambda - mean * ExtendedComplexMatrix::Identity(k, k);
-  const auto distances =
-      real ? Eigen::EigenSolver<ExtendedMatrix>(ExtendedMatrix(apart.real()), false).eigenvalues()
-           : Eigen::ComplexEigenSolver<ExtendedComplexMatrix>(apart, false).eigenvalues();
-  std::vector<ExtendedComplex> result;
-  for (const ExtendedComplex& distance : distances) result.push_back(mean + distance);
+  // Other solvers of the library take the compiler half a minute with these numbers.
+  const Eigen::ComplexSchur<ExtendedComplexMatrix> schur(
+      Lambda - mean * ExtendedComplexMatrix::Identity(k, k), false);
+  const auto distances = schur.matrixT().diagonal();
+  std::vector<ExtendedComplex> result(distances.begin(), distances.end());
+  if (real) make_conjugate(result);
+  for (ExtendedComplex& s : result) s += mean;
   return result;
 }
 
