@@ -66,13 +66,15 @@ void make_conjugate(std::vector<ExtendedComplex>& values) {
       return std::abs(to_double(other - std::conj(one)));
     };
     ExtendedComplex& partner = *std::ranges::min_element(rest, {}, distance);  // itself if it is real
-    const bool is_real = &partner == &one;
-    one = is_real ? one.real() : (one + std::conj(partner)) / ExtendedComplex(2.0);
-    if (!is_real) {
+    if (&partner == &one) {
+      one = one.real();
+      rest = rest.subspan(1);
+    } else {
+      one = (one + std::conj(partner)) / ExtendedComplex(2.0);
       partner = std::conj(one);
       std::swap(rest[1], partner);
+      rest = rest.subspan(2);
     }
-    rest = rest.subspan(is_real ? 1 : 2);
   }
 }
 

@@ -1,7 +1,8 @@
 #include "model/beam_axis.hpp"
-#include "core/gaps.hpp"
 
 #include <algorithm>
+
+#include "core/gaps.hpp"
 
 namespace eigentrail {
 namespace {
