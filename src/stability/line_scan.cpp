@@ -144,7 +144,7 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.to = window_.declared(line_.at(to))[line_.along];
   options.tolerance = scan_tolerance;
   options.certify = false;
-  options.events = {.extrema = false};  // the scan finds the extrema that it needs itself
+  options.events = {.veerings = false, .other_paths = false};  // and extrema are found by the scan itself
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
   equilibria_.clear();

@@ -153,7 +153,7 @@ void add_axis_points(const std::vector<AxisStretch>& stretches, MapLine& line) {
 MapLine map_line(const MapSetup& setup, double second, const std::vector<double>& first) {
   TraceOptions options = setup.trace.options;
   options.values[setup.options.second] = second;
-  options.events = {.extrema = false};  // cells do not need extrema
+  options.events = {.veerings = false, .other_paths = false};  // cells need changes of stability only
   PathRecorder recorder;
   std::vector<int> expected;
   TraceObserver observer;
