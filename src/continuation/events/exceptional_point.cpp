@@ -10,9 +10,10 @@ namespace {
 
 /// Newton iterations: from the prediction a few, close to another exceptional point linear convergence first.
 constexpr int most_iterations = 30;
-/// As a share of the reach: the last move, and moves that may be rounding.
+/// As a share of the distance from the real axis (of mu: of its size): the last move, and moves that may be
+/// rounding.
 constexpr double settled_move = 1e-12;
-constexpr double loosely_settled = 1e-6;
+constexpr double loosely_settled = 1e-4;
 /// As a share of the move before: a longer move no longer shrinks. Beside a double root each is half as long.
 constexpr double still_shrinking = 0.7;
 /// As a share of the reach, and of mu: longer moves are shortened.
@@ -98,10 +99,10 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
     mu += dmu;
     if (std::abs(h - start) > reach) return std::nullopt;
     // The place is known to rounding over the slope of the discriminant: below that moves no longer shrink.
-    const bool at_rounding =
-        std::abs(dh) <= loosely_settled * reach && std::abs(dh) > still_shrinking * last_move;
+    const double move = std::abs(dh) / std::abs(h.imag());
+    const bool at_rounding = move <= loosely_settled && std::abs(dh) > still_shrinking * last_move;
     last_move = std::abs(dh);
-    if (std::abs(dh) > settled_move * reach && !at_rounding) continue;
+    if (move > settled_move && !at_rounding) continue;
     // The next root of the critical value of f over mu, by its curvature.
     const Complex curvature = f.hh - f.muh * f.muh / f.mumu;
     return ExceptionalPoint{h, mu, -2.0 * f.h / f.mumu, h - 2.0 * f.h / curvature};
