@@ -76,7 +76,14 @@ TEST(ExceptionalPoint, ThatIsKnownIsNotFoundAgain) {
   ASSERT_TRUE(other);
   EXPECT_LT(std::abs(other->h + 0.01 * i), 1e-10);
   const std::vector<Complex> both{Complex(0.0, 0.01), Complex(0.0, -0.01)};
-  EXPECT_FALSE(find_exceptional_point(pencil, Chart::finite, Complex(0.001, 0.008), i, 0.1, both));
+  for (const double reach : {0.1, 1e9})
+    EXPECT_FALSE(find_exceptional_point(pencil, Chart::finite, Complex(0.001, 0.008), i, reach, both));
+}
+
+TEST(ExceptionalPoint, IsAsAccurateWhereTheSearchMayGoFar) {
+  const auto point = find_exceptional_point(veering(0.01), Chart::finite, Complex(0.001, 0.008), i, 1e9, {});
+  ASSERT_TRUE(point);
+  EXPECT_LT(std::abs(point->h - 0.01 * i), 1e-11);
 }
 
 /// Different damping and a weak coupling: two exceptional points on one side of the axis, 2e-4 apart.
