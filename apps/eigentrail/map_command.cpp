@@ -62,21 +62,15 @@ void print_shares(const StabilityMap& map, const MapTotals& totals) {
     std::printf("  margin from %s to %s 1/s\n", rounded(least).c_str(), rounded(largest).c_str());
 }
 
-/// Cost of a QZ in units of one complex LU. A complex LU of size n + 1 takes 8/3 n^3 operations, QZ without
-/// vectors on the companion form of size 2n takes 30 (2n)^3 (Golub and Van Loan, section 7.7).
-constexpr int lu_per_qz = 90;
-
 /// `seconds`: wall time; NaN if it is not known.
 void print_work(const StabilityMap& map, const MapTotals& totals, double seconds) {
   Eigen::Index size = 0;
   for (const MapLine& line : map.lines) size = std::max(size, line.n_independent);
   const double cells = static_cast<double>(totals.cells);
-  std::printf(
-      "  work  %zu traces for %zu cells, %llu complex LU of size %lld: %s per cell (a QZ in every cell: "
-      "about %d)\n",
-      map.lines.size(), totals.cells, static_cast<unsigned long long>(totals.factorizations),
-      static_cast<long long>(size) + 1,
-      rounded(static_cast<double>(totals.factorizations) / cells, 3).c_str(), lu_per_qz);
+  std::printf("  work  %zu traces for %zu cells, %llu complex LU of size %lld: %s per cell\n",
+              map.lines.size(), totals.cells, static_cast<unsigned long long>(totals.factorizations),
+              static_cast<long long>(size) + 1,
+              rounded(static_cast<double>(totals.factorizations) / cells, 3).c_str());
   if (std::isnan(seconds)) return;
   std::printf("  time  %s s: %s ms per cell\n", rounded(seconds, 3).c_str(),
               rounded(1e3 * seconds / cells, 3).c_str());
