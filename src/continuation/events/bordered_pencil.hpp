@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/orthonormal.hpp"
 #include "core/products.hpp"
@@ -18,145 +20,49 @@ inline Eigen::Index dimensions_of(const ReducedPencil& pencil) {
   return pencil.complex_sign == 0 ? pencil.size() : pencil.size() / 2;
 }
 
-/// Writes a matrix into a block; of a complex part, the matrix in its complex coordinates.
-inline void write_matrix(const Matrix& real, const Matrix& imag, int complex_sign,
-                         Eigen::Ref<ComplexMatrix> block) {
-  if (complex_sign != 0) {
-    block = complex_block(real, complex_sign) + Complex(0.0, 1.0) * complex_block(imag, complex_sign);
-    return;
-  }
-  block.real() = real;
-  block.imag() = imag;
-}
-
-/// A matrix series at a complex place. Its derivatives are formed only of the vectors that they are applied
-/// to.
-class SeriesAt {
- public:
-  SeriesAt(const MatrixSeries& series, Complex h, int complex_sign)
-      : series_(series), h_(h), complex_sign_(complex_sign) {}
-
-  /// Adds `factor` times the matrix.
-  void add_to(Complex factor, Matrix& real, Matrix& imag) const {
-    for (const Matrix& coefficient : series_) {
-      if (!coefficient.isZero(0.0)) {
-        real += factor.real() * coefficient;
-        imag += factor.imag() * coefficient;
-      }
-      factor *= h_;
-    }
-  }
-
-  /// The products of the matrix and of its derivatives with vectors.
-  struct Jet {
-    ComplexMatrix value, slope, curvature;
-  };
-  Jet times(const ComplexMatrix& v) const {
-    if (complex_sign_ != 0) return within(jet_of(from_complex_coordinates(v, complex_sign_)));
-    return jet_of(v);
-  }
-
- private:
-  Jet jet_of(const ComplexMatrix& v) const {
-    const ComplexMatrix none = ComplexMatrix::Zero(v.rows(), v.cols());
-    Jet jet{none, none, none};
-    for (std::size_t k = series_.size(); k-- > 0;) {
-      jet.curvature = h_ * jet.curvature + 2.0 * jet.slope;
-      jet.slope = h_ * jet.slope + jet.value;
-      jet.value = h_ * jet.value;
-      if (!series_[k].isZero(0.0)) jet.value += multiply(series_[k], v);
-    }
-    return jet;
-  }
-  Jet within(const Jet& jet) const {
-    return {complex_coordinates(jet.value, complex_sign_), complex_coordinates(jet.slope, complex_sign_),
-            complex_coordinates(jet.curvature, complex_sign_)};
-  }
-
-  const MatrixSeries& series_;
-  Complex h_;
-  int complex_sign_;
-};
-
-/// P(mu, h) = mu^2 A + mu B + C with its derivatives.
+/// P(mu, h) = mu^2 A + mu B + C at one complex h, for many mu, with its derivatives.
 class PencilAt {
  public:
-  PencilAt(const ReducedPencil& pencil, Chart chart, Complex h)
-      : second_(chart == Chart::finite ? pencil.M : pencil.K, h, pencil.complex_sign),
-        first_(pencil.C, h, pencil.complex_sign),
-        zeroth_(chart == Chart::finite ? pencil.K : pencil.M, h, pencil.complex_sign),
-        size_(pencil.size()),
-        complex_sign_(pencil.complex_sign) {}
-
-  /// Writes P into a block.
-  void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const {
-    Matrix real = Matrix::Zero(size_, size_), imag = real;
-    second_.add_to(mu * mu, real, imag);
-    first_.add_to(mu, real, imag);
-    zeroth_.add_to(1.0, real, imag);
-    write_matrix(real, imag, complex_sign_, block);
-  }
-
-  /// The products of derivatives of P with vectors.
-  class Products {
-   public:
-    Products(const PencilAt& pencil, Complex mu, const ComplexMatrix& v)
-        : mu_(mu),
-          second_(pencil.second_.times(v)),
-          first_(pencil.first_.times(v)),
-          zeroth_(pencil.zeroth_.times(v)) {}
-
-    ComplexMatrix by_mu() const { return 2.0 * mu_ * second_.value + first_.value; }
-    ComplexMatrix by_mu_twice() const { return 2.0 * second_.value; }
-    ComplexMatrix by_h() const { return mu_ * mu_ * second_.slope + mu_ * first_.slope + zeroth_.slope; }
-    ComplexMatrix by_h_twice() const {
-      return mu_ * mu_ * second_.curvature + mu_ * first_.curvature + zeroth_.curvature;
-    }
-    ComplexMatrix by_both() const { return 2.0 * mu_ * second_.slope + first_.slope; }
-
-   private:
-    Complex mu_;
-    SeriesAt::Jet second_, first_, zeroth_;
-  };
-
- private:
-  SeriesAt second_, first_, zeroth_;
-  Eigen::Index size_;
-  int complex_sign_;
-};
-
-/// The same at one h, for many mu: its matrices are computed once, and only the derivative by mu is known.
-class FixedPencil {
- public:
-  FixedPencil(const ReducedPencil& pencil, Chart chart, Complex h)
-      : n_(dimensions_of(pencil)), terms_(n_ * n_, 3) {
+  /// `order`: of the highest derivative by h that is asked for, 0 to 2.
+  PencilAt(const ReducedPencil& pencil, Chart chart, Complex h, int order)
+      : n_(dimensions_of(pencil)),
+        by_h_(static_cast<std::size_t>(order) + 1, ComplexMatrix::Zero(n_ * n_, 3)) {
     set(0, chart == Chart::finite ? pencil.M : pencil.K, h, pencil.complex_sign);
     set(1, pencil.C, h, pencil.complex_sign);
     set(2, chart == Chart::finite ? pencil.K : pencil.M, h, pencil.complex_sign);
   }
 
-  void write(Complex mu, Eigen::Ref<ComplexMatrix> block) const { block = sum(mu * mu, mu, 1.0); }
-  /// The derivative of P by mu times vectors.
-  ComplexMatrix by_mu(Complex mu, const ComplexMatrix& v) const {
-    return product(sum(2.0 * mu, 1.0, 0.0), v);
+  int order() const { return static_cast<int>(by_h_.size()) - 1; }
+
+  /// The derivative of P, `by_mu` times by mu and `by_h` times by h. The sum of the three matrices is formed
+  /// by BLAS: Eigen's takes as long as the factorization.
+  ComplexMatrix derivative(Complex mu, int by_mu, int by_h) const {
+    Eigen::Vector3cd factors(mu * mu, mu, 1.0);
+    if (by_mu == 1) factors = Eigen::Vector3cd(2.0 * mu, 1.0, 0.0);
+    if (by_mu == 2) factors = Eigen::Vector3cd(2.0, 0.0, 0.0);
+    return product(by_h_[static_cast<std::size_t>(by_h)], ComplexVector(factors)).reshaped(n_, n_);
   }
 
  private:
-  void set(Eigen::Index term, const MatrixSeries& series, Complex h, int complex_sign) {
-    Matrix real = Matrix::Zero(series[0].rows(), series[0].cols()), imag = real;
-    SeriesAt(series, h, complex_sign).add_to(1.0, real, imag);
-    ComplexMatrix matrix(n_, n_);
-    write_matrix(real, imag, complex_sign, matrix);
-    terms_.col(term) = matrix.reshaped();
+  /// Sets the matrix of one power of mu, with its derivatives, from its series.
+  void set(Eigen::Index column, const MatrixSeries& series, Complex h, int complex_sign) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      if (series[k].isZero(0.0)) continue;
+      const ComplexMatrix coefficient = complex_sign == 0 ? ComplexMatrix(series[k].cast<Complex>())
+                                                          : complex_block(series[k], complex_sign);
+      for (std::size_t by_h = 0; by_h < by_h_.size() && by_h <= k; ++by_h)
+        by_h_[by_h].col(column) += derivative_of_power(h, k, by_h) * coefficient.reshaped();
+    }
   }
 
-  /// A sum of the matrices, by BLAS: Eigen's takes as long as the factorization.
-  ComplexMatrix sum(Complex second, Complex first, Complex zeroth) const {
-    return product(terms_, ComplexVector(Eigen::Vector3cd(second, first, zeroth))).reshaped(n_, n_);
+  static Complex derivative_of_power(Complex h, std::size_t power, std::size_t times) {
+    Complex value = 1.0;
+    for (std::size_t i = 0; i < power; ++i) value *= i < times ? static_cast<double>(power - i) : h;
+    return value;
   }
 
   Eigen::Index n_;
-  ComplexMatrix terms_;  ///< n^2 x 3: the matrices of mu^2, mu and 1, column by column
+  std::vector<ComplexMatrix> by_h_;  ///< each n^2 x 3: the matrices of mu^2, mu and 1, column by column
 };
 
 /// The bordered system at one place, with borders that are renewed from solution to solution.
@@ -173,32 +79,17 @@ class Bordered {
     c_ = orthonormal(c_);
   }
 
-  /// f = det G, f_mu, f_h, and where they are asked for f_mumu, f_muh, f_hh.
+  /// f = det G, f_mu, f_h, f_mumu, f_muh, f_hh.
   struct Values {
-    Complex f, mu, h, mumu, muh, hh;
+    Complex f, mu = 0.0, h = 0.0, mumu = 0.0, muh = 0.0, hh = 0.0;
   };
-  enum class Derivatives { none, first, second_by_mu, second };
 
-  Values at(const PencilAt& pencil, Complex mu, Derivatives wanted = Derivatives::second) {
+  /// f with its derivatives up to `order`, 1 or 2, those by h as far as the pencil has them; others are zero.
+  Values at(const PencilAt& pencil, Complex mu, int order) {
     if (b_.rows() == 1) return of_one_freedom(pencil, mu);
     const ComplexLu lu = factor(pencil, mu);
     const ComplexMatrix w = solve(lu);
-    Values values{G_.determinant(), 0.0, 0.0, 0.0, 0.0, 0.0};
-    if (wanted != Derivatives::none) differentiate(pencil, mu, lu, w, wanted, values);
-    renew(w);
-    return values;
-  }
-
-  /// f and f_mu.
-  Values at(const FixedPencil& pencil, Complex mu) {
-    if (b_.rows() == 1) {
-      ComplexMatrix value(1, 1);
-      pencil.write(mu, value);
-      return {value(0, 0), pencil.by_mu(mu, ComplexMatrix::Ones(1, 1))(0, 0), 0.0, 0.0, 0.0, 0.0};
-    }
-    const ComplexMatrix w = solve(factor(pencil, mu));
-    const TwoByTwo G_mu = -w.adjoint() * pencil.by_mu(mu, v_);
-    const Values values{G_.determinant(), slope_of(G_, G_mu), 0.0, 0.0, 0.0, 0.0};
+    const Values values = differentiate(pencil, mu, lu, w, order);
     renew(w);
     return values;
   }
@@ -227,19 +118,16 @@ class Bordered {
 
   /// A pencil of one freedom is f itself.
   static Values of_one_freedom(const PencilAt& pencil, Complex mu) {
-    const ComplexMatrix one = ComplexMatrix::Ones(1, 1);
-    ComplexMatrix value(1, 1);
-    pencil.write(mu, value);
-    const PencilAt::Products P(pencil, mu, one);
-    return {value(0, 0),           P.by_mu()(0, 0),   P.by_h()(0, 0),
-            P.by_mu_twice()(0, 0), P.by_both()(0, 0), P.by_h_twice()(0, 0)};
+    const auto f = [&](int by_mu, int by_h) {
+      return by_h <= pencil.order() ? pencil.derivative(mu, by_mu, by_h)(0, 0) : Complex(0.0);
+    };
+    return {f(0, 0), f(1, 0), f(0, 1), f(2, 0), f(1, 1), f(0, 2)};
   }
 
-  template <class Pencil>
-  ComplexLu factor(const Pencil& pencil, Complex mu) const {
+  ComplexLu factor(const PencilAt& pencil, Complex mu) const {
     const Eigen::Index n = b_.rows();
     ComplexMatrix B(n + 2, n + 2);
-    pencil.write(mu, B.topLeftCorner(n, n));
+    B.topLeftCorner(n, n) = pencil.derivative(mu, 0, 0);
     B.topRightCorner(n, 2) = b_;
     B.bottomLeftCorner(2, n) = c_.adjoint();
     B.bottomRightCorner(2, 2).setZero();
@@ -266,23 +154,33 @@ class Bordered {
     b_ = orthonormal(w);
   }
 
-  void differentiate(const PencilAt& pencil, Complex mu, const ComplexLu& lu, const ComplexMatrix& w,
-                     Derivatives wanted, Values& values) const {
-    const PencilAt::Products P(pencil, mu, v_);
-    const ComplexMatrix P_mu = P.by_mu(), P_h = P.by_h();
-    const TwoByTwo G_mu = -w.adjoint() * P_mu, G_h = -w.adjoint() * P_h;
-    values.mu = slope_of(G_, G_mu);
-    values.h = slope_of(G_, G_h);
-    if (wanted == Derivatives::first) return;
-    const auto second = [&](const ComplexMatrix& P_xy, const ComplexMatrix& there) {
-      return TwoByTwo(-w.adjoint() * (P_xy + there));
+  /// The derivatives by mu or h, called x, of the pencil, of v and of G.
+  struct ByOne {
+    ComplexMatrix P, v;
+    TwoByTwo G;
+  };
+
+  Values differentiate(const PencilAt& pencil, Complex mu, const ComplexLu& lu, const ComplexMatrix& w,
+                       int order) const {
+    const auto by_one = [&](ComplexMatrix P_x) {
+      const ComplexMatrix P_x_v = product(P_x, v_);
+      return ByOne{std::move(P_x), order > 1 ? change(lu, P_x_v) : ComplexMatrix(), -w.adjoint() * P_x_v};
     };
-    const PencilAt::Products of_mu(pencil, mu, change(lu, P_mu));
-    values.mumu = mixed(G_, G_mu, G_mu, second(P.by_mu_twice(), 2.0 * of_mu.by_mu()));
-    if (wanted == Derivatives::second_by_mu) return;
-    const PencilAt::Products of_h(pencil, mu, change(lu, P_h));
-    values.muh = mixed(G_, G_mu, G_h, second(P.by_both(), of_h.by_mu() + of_mu.by_h()));
-    values.hh = mixed(G_, G_h, G_h, second(P.by_h_twice(), 2.0 * of_h.by_h()));
+    const auto by_two = [&](const ComplexMatrix& P_xy, const ByOne& x, const ByOne& y) {
+      const ComplexMatrix sum = product(P_xy, v_) + product(x.P, y.v) + product(y.P, x.v);
+      return mixed(G_, x.G, y.G, -w.adjoint() * sum);
+    };
+    Values values{G_.determinant()};
+    const ByOne by_mu = by_one(pencil.derivative(mu, 1, 0));
+    values.mu = slope_of(G_, by_mu.G);
+    if (order > 1) values.mumu = by_two(pencil.derivative(mu, 2, 0), by_mu, by_mu);
+    if (pencil.order() == 0) return values;
+    const ByOne by_h = by_one(pencil.derivative(mu, 0, 1));
+    values.h = slope_of(G_, by_h.G);
+    if (order == 1 || pencil.order() == 1) return values;
+    values.muh = by_two(pencil.derivative(mu, 1, 1), by_mu, by_h);
+    values.hh = by_two(pencil.derivative(mu, 0, 2), by_h, by_h);
+    return values;
   }
 
   /// The derivative of v by x from P_x v.

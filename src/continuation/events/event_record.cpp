@@ -101,7 +101,7 @@ void keep_sensitivities(const PathProblem& problem, const PathPoint& point, cons
       if (!along) continue;
       const Track& along_q = along->tracks.front();
       sensitivity[q] = mean_slope_of_s(along_q, roots);
-      const double moved = moves(track, *along, along_q) * speed;
+      const double moved = moves ? moves(track, *along, along_q) * speed : nan;
       if (std::isfinite(moved)) shift[q] = moved;
     }
   };

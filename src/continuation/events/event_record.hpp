@@ -31,7 +31,8 @@ PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCoun
 
 /// Derivative of the place of an event, in the path's coordinate h, with respect to another parameter q. If
 /// the event is a zero of g, moves(along_path, node_q, along_q) = -(dg/dq) / (dg/dh). Arguments: the track
-/// with its series in h; the node, and the track, with their series in q. NaN where it is not known.
+/// with its series in h; the node, and the track, with their series in q. NaN where it is not known; empty
+/// where it is not known for any parameter.
 using Movement = std::function<double(const Track&, const PathNode&, const Track&)>;
 
 /// Sets ds/dq of the mean of `members`, and dp*/dq, for every parameter q, also of the event's copies. Both

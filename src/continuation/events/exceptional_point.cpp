@@ -37,13 +37,13 @@ bool is_finite(Complex z) {
 /// A root mu of f at fixed h by Newton's method; empty if it does not settle. `moved`: largest allowed way.
 /// `last_move`: how short the last move is to be; what is left is about its square over the distance of other
 /// roots. `has_borders`: they belong to the root already.
-std::optional<Complex> root_at(const FixedPencil& pencil, Complex mu, double moved, double last_move,
+std::optional<Complex> root_at(const PencilAt& pencil, Complex mu, double moved, double last_move,
                                bool has_borders, Bordered& bordered) {
   const Complex start = mu;
-  if (!has_borders) bordered.at(pencil, mu);
+  if (!has_borders) bordered.at(pencil, mu, 1);
   for (int i = 0; i < most_iterations; ++i) {
-    const auto values = bordered.at(pencil, mu);
-    const Complex move = -values.f / values.mu;
+    const auto f = bordered.at(pencil, mu, 1);
+    const Complex move = -f.f / f.mu;
     if (!is_finite(move)) return std::nullopt;
     mu += move;
     if (std::abs(mu - start) > moved) return std::nullopt;
@@ -58,10 +58,10 @@ Complex between_eigenvalues(const PencilAt& pencil, Complex mu, Bordered& border
   constexpr int rounds = 10;       // f is a parabola in mu once the borders belong to the two
   constexpr double enough = 1e-9;  // relative: the last move. What is left, Newton's method for both corrects
   constexpr double farthest = 0.2;  // of mu, from the start: beyond that it is between others
-  bordered.at(pencil, mu, Bordered::Derivatives::none);  // with borders that belong to nothing yet
+  bordered.at(pencil, mu, 1);       // with borders that belong to nothing yet
   const Complex start = mu;
   for (int i = 0; i < rounds; ++i) {
-    const auto f = bordered.at(pencil, mu, Bordered::Derivatives::second_by_mu);
+    const auto f = bordered.at(pencil, mu, 2);
     const Complex move = -f.mu / f.mumu;
     if (!is_finite(move) || std::abs(mu + move - start) > farthest * std::abs(start)) return start;
     mu += move;
@@ -69,6 +69,47 @@ Complex between_eigenvalues(const PencilAt& pencil, Complex mu, Bordered& border
   }
   return mu;
 }
+
+/// Two close eigenvalues of a pencil, followed from one h to the next.
+class FollowedTwo {
+ public:
+  explicit FollowedTwo(const ReducedPencil& pencil)
+      : pencil_(pencil), bordered_{Bordered(dimensions_of(pencil)), Bordered(dimensions_of(pencil))} {}
+
+  /// Both at a place; empty if one of them is not within `allowed` of where it is expected. `last_move` as in
+  /// root_at.
+  std::optional<std::array<Complex, 2>> at(const PencilAt& here, const std::array<Complex, 2>& expected,
+                                           double allowed, double last_move) {
+    std::array<Complex, 2> found{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto root = root_at(here, expected[k], allowed, last_move, have_borders_, bordered_[k]);
+      if (!root) {
+        have_borders_ = false;
+        return std::nullopt;
+      }
+      found[k] = *root;
+    }
+    have_borders_ = true;
+    return found;
+  }
+
+  /// dmu/dh of one of them, where it was found.
+  Complex slope(const PencilAt& here, std::size_t k, Complex mu) {
+    const auto f = bordered_[k].at(here, mu, 1);
+    return -f.h / f.mu;
+  }
+
+  /// The right vector of one of them, in the coordinates of the pencil.
+  ComplexVector vector(std::size_t k) const {
+    if (pencil_.complex_sign == 0) return bordered_[k].vector();
+    return from_complex_coordinates(bordered_[k].vector(), pencil_.complex_sign);
+  }
+
+ private:
+  const ReducedPencil& pencil_;
+  std::array<Bordered, 2> bordered_;
+  bool have_borders_ = false;  ///< that belong to the two
+};
 
 }  // namespace
 
@@ -78,10 +119,10 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
   Bordered bordered(dimensions_of(pencil));
   const Complex start = h;
   const double size_of_mu = std::abs(mu);
-  mu = between_eigenvalues(PencilAt(pencil, chart, h), mu, bordered);
+  mu = between_eigenvalues(PencilAt(pencil, chart, h, 0), mu, bordered);
   double last_move = INFINITY;
   for (int i = 0; i < most_iterations; ++i) {
-    const auto f = bordered.at(PencilAt(pencil, chart, h), mu);
+    const auto f = bordered.at(PencilAt(pencil, chart, h, 2), mu, 2);
     // [f_mu f_h; f_mumu f_muh] [dmu; dh] = -[f; f_mu]
     const Complex determinant = f.mu * f.muh - f.h * f.mumu;
     Complex dh = (f.mumu * f.f - f.mu * f.mu) / determinant;
@@ -115,35 +156,24 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
   constexpr double first_way = 0.125;
   constexpr double least_way = 1e-3;
   constexpr double enough = 0.9;  // of the way: close to an exceptional point only the mean is smooth
-  std::array<Bordered, 2> bordered{Bordered(dimensions_of(pencil)), Bordered(dimensions_of(pencil))};
+  FollowedTwo two(pencil);
   const Complex way = h - from;
   std::array<Complex, 2> slope{};
-  double share = 0.0, step = 0.0;
-  bool has_borders = false;
+  double share = 0.0;
   const auto go_to = [&](double next) {
-    const PencilAt here(pencil, chart, from + next * way);
-    const FixedPencil fixed(pencil, chart, from + next * way);
-    const std::array<Complex, 2> before = mu;
-    std::array<Complex, 2> slope_there{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Complex predicted = before[k] + (next - share) * slope[k];
-      const double apart = std::abs(before[0] - before[1]);
-      const auto root =
-          root_at(fixed, predicted, certain * apart, on_the_way * apart, has_borders, bordered[k]);
-      if (!root) {
-        mu = before;
-        return has_borders = false;
-      }
-      mu[k] = *root;
-      const auto f = bordered[k].at(here, mu[k], Bordered::Derivatives::first);
-      slope_there[k] = -f.h / f.mu * way;
-    }
-    slope = slope_there;
+    const PencilAt here(pencil, chart, from + next * way, 1);
+    const double apart = std::abs(mu[0] - mu[1]);
+    std::array<Complex, 2> expected = mu;
+    for (std::size_t k = 0; k < 2; ++k) expected[k] += (next - share) * slope[k];
+    const auto found = two.at(here, expected, certain * apart, on_the_way * apart);
+    if (!found) return false;
+    mu = *found;
+    for (std::size_t k = 0; k < 2; ++k) slope[k] = two.slope(here, k, mu[k]) * way;
     share = next;
-    return has_borders = true;
+    return true;
   };
   if (!go_to(0.0)) return std::nullopt;
-  step = first_way;
+  double step = first_way;
   while (share < enough) {
     if (go_to(std::min(share + step, 1.0))) {
       step *= growth;
@@ -154,58 +184,37 @@ std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double 
   return 0.5 * (mu[0] + mu[1]) + (1.0 - share) * 0.5 * (slope[0] + slope[1]);
 }
 
-namespace {
-
-/// The eigenvector, in the coordinates of the pencil.
-ComplexVector vector_of(const ReducedPencil& pencil, const Bordered& bordered) {
-  if (pencil.complex_sign == 0) return bordered.vector();
-  return from_complex_coordinates(bordered.vector(), pencil.complex_sign);
-}
-
-}  // namespace
-
 std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPencil& pencil, Chart chart,
                                                                 const ExceptionalPoint& point) {
-  std::array<Bordered, 2> bordered{Bordered(dimensions_of(pencil)), Bordered(dimensions_of(pencil))};
+  FollowedTwo two(pencil);
   const Complex down(0.0, -point.h.imag());
   const auto apart = [&](double share) { return std::sqrt(point.slope * share * down); };
-  double share = first_share, step = first_share;
+  double share = first_share, step = first_share, before_share = 0.0;
   std::array<Complex, 2> mu{point.mu + apart(share), point.mu - apart(share)}, before{point.mu, point.mu};
-  double before_share = 0.0;
-  bool at_start = true, has_borders = false;
+  bool at_start = true;
   while (true) {
-    const FixedPencil here(pencil, chart, point.h + share * down);
-    std::array<Complex, 2> found{};
-    bool followed = true;
-    for (std::size_t k = 0; k < 2 && followed; ++k) {
-      const double other = std::abs(mu[0] - mu[1]);
-      const double last_move = share < 1.0 ? on_the_way * other : 0.0;
-      const auto root =
-          root_at(here, mu[k], (at_start ? 0.5 : certain) * other, last_move, has_borders, bordered[k]);
-      followed = root.has_value();
-      if (followed) found[k] = *root;
-    }
-    has_borders = followed;
-    if (!followed) {
-      if (at_start && share > least_share * first_share) {
-        share *= 0.25;
-        step = share;
-        mu = {point.mu + apart(share), point.mu - apart(share)};
-        continue;
-      }
-      step *= 0.5;
-      if (at_start || step < least_share * before_share) return std::nullopt;
-      share = before_share + step;
-    } else {
-      if (share >= 1.0) {
-        return std::array<EigenvalueBelow, 2>{EigenvalueBelow{found[0], vector_of(pencil, bordered[0])},
-                                              EigenvalueBelow{found[1], vector_of(pencil, bordered[1])}};
-      }
+    const double other = std::abs(mu[0] - mu[1]);
+    const double last_move = share < 1.0 ? on_the_way * other : 0.0;
+    const auto found = two.at(PencilAt(pencil, chart, point.h + share * down, 0), mu,
+                              (at_start ? 0.5 : certain) * other, last_move);
+    if (found && share >= 1.0)
+      return std::array<EigenvalueBelow, 2>{EigenvalueBelow{(*found)[0], two.vector(0)},
+                                            EigenvalueBelow{(*found)[1], two.vector(1)}};
+    if (found) {
       at_start = false;
-      before = found;
+      before = *found;
       before_share = share;
       step *= growth;
       share = std::min(1.0, share + step);
+    } else if (at_start && share > least_share * first_share) {
+      share *= 0.25;
+      step = share;
+      mu = {point.mu + apart(share), point.mu - apart(share)};
+      continue;
+    } else {
+      step *= 0.5;
+      if (at_start || step < least_share * before_share) return std::nullopt;
+      share = before_share + step;
     }
     // The distance from the double eigenvalue grows like the square root of the way, at first.
     const double ratio = std::sqrt(share / before_share);

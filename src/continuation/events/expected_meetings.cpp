@@ -162,72 +162,30 @@ namespace {
 
 /// Series of an eigenvalue branch at one end, the mean of all that coincide. Empty when these cannot be
 /// separated from the others of the block.
-ComplexVector eigenvalue_branch_series(const Track& track, const EigenvalueBranch& branch) {
+ComplexVector series_of(const Track& track, const EigenvalueBranch& branch) {
   if (track.size() == 1) return track.functions.row(0).transpose();
-  std::vector<Complex> roots;
-  for (const int i : branch.members) roots.push_back(track.roots[i]);
-  const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
+  const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots_of(track, branch.members));
   return part.empty() ? ComplexVector() : mean_series(part);
 }
 
-/// The value of an eigenvalue branch at one end, and a bound of its change, by the series, within a distance
-/// `reach`.
-struct MovingMean {
-  MovingMean(const Track& track, const EigenvalueBranch& branch, double reach)
-      : series(eigenvalue_branch_series(track, branch)) {
-    double power = 1.0;
-    for (Eigen::Index k = 1; k < series.size(); ++k) moves += std::abs(series[k]) * (power *= reach);
-  }
-
-  ComplexVector series;  ///< as eigenvalue_branch_series
-  double moves = 0.0;    ///< sum of |c_k| reach^k for k >= 1
-};
-
-/// Whether the gap certainly has no root within reach. With the distance d of the two eigenvalues at the end
-/// and the bound m of its change, all terms of the series of the squared distance but the first add up to at
-/// most (|d| + m)^2 - |d|^2. This is less than the first, |d|^2, where m < (sqrt 2 - 1) |d|.
-bool stay_apart(const MovingMean& a, const MovingMean& b) {
-  constexpr double share = 0.41;  // sqrt 2 - 1, rounded down
-  if (a.series.size() == 0 || b.series.size() == 0) return false;
-  return a.moves + b.moves < share * std::abs(a.series[0] - b.series[0]);
-}
-
-/// An eigenvalue branch with its values at both ends of the step.
-struct SeenEigenvalueBranch {
+/// An eigenvalue branch with its series at both ends of the step.
+struct BranchSeries {
   EigenvalueBranch branch;
-  MovingMean left, right;
+  ComplexVector left, right;
 };
 
-/// The eigenvalue branches with their values at both ends; `reach` as in MovingMean.
-std::vector<SeenEigenvalueBranch> seen_from_both_ends(std::vector<EigenvalueBranch> branches,
-                                                      const PathNode& left, const PathNode& right,
-                                                      double reach) {
-  std::vector<SeenEigenvalueBranch> seen;
-  for (EigenvalueBranch& branch : branches) {
-    MovingMean from(left.tracks[branch.track], branch, reach);
-    MovingMean to(right.tracks[branch.track], branch, reach);
-    seen.push_back({std::move(branch), std::move(from), std::move(to)});
-  }
-  return seen;
-}
-
-/// Series of the gap of two eigenvalue branches at one end; empty when it is not known.
-ComplexVector gap_at(const PathNode& node, const EigenvalueBranch& a, const MovingMean& mean_a,
-                     const EigenvalueBranch& b, const MovingMean& mean_b) {
+/// Series of the gap of two eigenvalue branches at one end, from their own series there; empty when it is not
+/// known.
+ComplexVector gap_at(const PathNode& node, const EigenvalueBranch& a, const ComplexVector& series_a,
+                     const EigenvalueBranch& b, const ComplexVector& series_b) {
   if (a.track == b.track) return discriminant_of(node.tracks[a.track], a.members, b.members);
-  if (mean_a.series.size() == 0 || mean_b.series.size() == 0) return {};
-  return discriminant_series(mean_a.series, mean_b.series);
+  if (series_a.size() == 0 || series_b.size() == 0) return {};
+  return discriminant_series(series_a, series_b);
 }
 
 /// A root of an interpolant is not accepted where the last term is a larger share of the largest one: there
 /// the interpolant does not represent the function.
 constexpr double told_by_series = 0.05;
-
-/// Distance from an end of a step within which roots of gaps are searched for: the other end, and twice
-/// `width` around it.
-double reach_of(double length, double width) {
-  return std::abs(length) + 2.0 * width;
-}
 
 /// In steps: veerings up to this far beyond the ends of the step are located from it.
 constexpr double off_the_ends = 0.1;
@@ -236,6 +194,12 @@ constexpr double off_the_ends = 0.1;
 double behind_the_step(double off_axis) {
   constexpr double share_of_height = 0.2;
   return std::max(off_the_ends, share_of_height * off_axis);
+}
+
+/// Whether a gap, by its series at an end of a step, certainly has no root up to `width` off the axis from a
+/// little before the step to a little behind it.
+bool stays_away(const ComplexVector& gap, double length, double width) {
+  return gap.size() > 0 && has_no_root_within(gap, (1.0 + off_the_ends) * std::abs(length) + 2.0 * width);
 }
 
 /// Region in which roots up to `off_axis` (in steps) off the axis are wanted, in shares of the step and
@@ -250,16 +214,14 @@ Rectangle surroundings(double off_axis) {
 /// ends, or from one series where only that is known.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
                                double width) {
-  const double reach = reach_of(length, width);
   if (left.size() == 0 && right.size() == 0) return {};
   if (left.size() == 0 || right.size() == 0) {
     const ComplexVector& gap = left.size() == 0 ? right : left;
-    if (has_no_root_within(gap, reach)) return {};
+    if (stays_away(gap, length, width)) return {};
     std::vector<Complex> roots = polynomial_roots(gap);
     for (Complex& root : roots) root += left.size() == 0 ? length : 0.0;
     return roots;
   }
-  if (has_no_root_within(left, reach) && has_no_root_within(right, reach)) return {};
   const HermiteInterpolant gap(length, left.transpose(), right.transpose());
   const double widest = (1.0 + told_by_series) * width / std::abs(length);
   Rectangle step = surroundings(widest);
@@ -393,17 +355,21 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       }
     }
   }
-  const std::vector<SeenEigenvalueBranch> seen =
-      seen_from_both_ends(std::move(branches), left, right, reach_of(length, width));
+  std::vector<BranchSeries> seen;
+  for (EigenvalueBranch& branch : branches) {
+    ComplexVector at_left = series_of(left.tracks[branch.track], branch);
+    ComplexVector at_right = series_of(right.tracks[branch.track], branch);
+    seen.push_back({std::move(branch), std::move(at_left), std::move(at_right)});
+  }
   GapsOnStep hints(left, right, length);
   for (const auto& [a, left_a, right_a] : seen) {
     for (const auto& [b, left_b, right_b] : seen) {
       if (&b == &a) break;
       if (left.tracks[a.track].pair.chart != left.tracks[b.track].pair.chart) continue;
       if (left.tracks[a.track].pair.part != left.tracks[b.track].pair.part) continue;
-      if (a.track != b.track && stay_apart(left_a, left_b) && stay_apart(right_a, right_b)) continue;
       const ComplexVector at_left = gap_at(left, b, left_b, a, left_a);
       const ComplexVector at_right = gap_at(right, b, right_b, a, right_a);
+      if (stays_away(at_left, length, width) && stays_away(at_right, length, width)) continue;
       const std::size_t before = meetings.size();
       for (const Complex root : gap_roots(at_left, at_right, length, width)) expect(b, a, root);
       if (meetings.size() > before) continue;

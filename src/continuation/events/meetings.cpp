@@ -31,13 +31,6 @@ std::vector<ComplexMatrix> part_of_track(const Track& track, const std::vector<i
   return part_series(track.series.Lambda, roots_of(track, members));
 }
 
-/// The indices of either list, ascending; both lists are ascending.
-std::vector<int> both(const std::vector<int>& a, const std::vector<int>& b) {
-  std::vector<int> members;
-  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(members));
-  return members;
-}
-
 /// `members` and the eigenvalues that are not much farther from one of them than these are from each other.
 /// Distances up to the share `one_point` of the largest eigenvalue count as none.
 std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members,
@@ -233,7 +226,7 @@ std::optional<Meeting> meeting_in_one_point(const Track& track, const std::vecto
 }  // namespace
 
 ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
-  const std::vector<int> members = both(a, b);
+  const std::vector<int> members = united(a, b);
   if (track.size() == 2 && members.size() == 2) return track.functions.row(1).transpose();
   if (with_bystanders(track.roots, members).size() == members.size()) {
     const std::vector<ComplexMatrix> part = part_of_track(track, members);
@@ -255,7 +248,7 @@ ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, con
 
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach, const MeetingThresholds& thresholds) {
-  const std::vector<int> members = both(a, b);
+  const std::vector<int> members = united(a, b);
   if (auto meeting = meeting_in_one_point(track, members, with_bystanders(track.roots, members), reach))
     return *meeting;
   Meeting meeting;

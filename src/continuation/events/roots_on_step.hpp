@@ -1,10 +1,13 @@
-// Roots of the gap ((s_a - s_b) / 2)^2 of two eigenvalues of a block near a step, from the dense output. They
-// are the meetings of the two. The error of an interpolant splits a double root into two close ones, also off
-// the real axis. Therefore roots close to the axis and to the ends of an interval are accepted, too.
+// Places near a step where two eigenvalues coincide, from the dense output. Those of a block are the roots of
+// their gap ((s_a - s_b) / 2)^2, which is smooth where they meet. The error of an interpolant splits a double
+// root into two close ones, also off the real axis. Therefore roots close to the axis and to the ends of an
+// interval are accepted, too. Those of different blocks are the roots of their difference.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "continuation/tracks/eigenvalue_branches.hpp"
@@ -33,15 +36,22 @@ struct Stretch {
   bool is_whole() const { return from == 0.0 && to == 1.0; }
 };
 
-/// Chebyshev interpolants of the gap of two eigenvalues. Where the gap is not smooth, because one of the two
-/// meets a third eigenvalue, the step is halved repeatedly. On such a piece only roots up to half its length
-/// off the real axis are found.
+/// Chebyshev interpolants of the function on a step. Where it is not smooth, because one of the two
+/// eigenvalues meets a third one, the step is halved repeatedly. On such a piece only roots up to half its
+/// length off the real axis are found.
 class RootsOnStep {
  public:
-  /// `off_axis`: largest distance from the real axis of the roots that are wanted, in steps. `stretch`: what
-  /// is looked at of the step.
-  RootsOnStep(EigenvalueSampler& sampler, int a, int b, double off_axis, const Stretch& stretch)
-      : sampler_(sampler), a_(a), b_(b), off_axis_(off_axis), stretch_(stretch) {}
+  using Distance = std::function<Complex(double)>;
+  using Resolution = std::function<double(double)>;
+
+  /// Of the gap of two eigenvalues of a block. `off_axis`: largest distance from the real axis of the roots
+  /// that are wanted, in steps. `stretch`: what is looked at of the step.
+  RootsOnStep(EigenvalueSampler& sampler, int a, int b, double off_axis, const Stretch& stretch);
+
+  /// Of the difference of two eigenvalues of different blocks, both as functions of t. `resolution`: what
+  /// counts as no difference.
+  RootsOnStep(Distance distance, Resolution resolution, double off_axis)
+      : distance_(std::move(distance)), resolution_(std::move(resolution)), off_axis_(off_axis) {}
 
   /// All roots, in shares of the step.
   std::vector<Complex> find();
@@ -56,21 +66,16 @@ class RootsOnStep {
   bool is_closest(Complex root);
 
  private:
-  Complex distance(double t) {
-    const ComplexVector& roots = sampler_(t);
-    return roots[a_] - roots[b_];
-  }
-  bool of_two_has_none() const;
   bool given_up() const;
-  Rectangle looked_at(double length) const;
-  double farthest_off_axis(double length) const;
   void search(double begin, double end);
   void add(Complex root);
 
-  EigenvalueSampler& sampler_;
-  int a_, b_;
+  Distance distance_;
+  Resolution resolution_;
   double off_axis_;
-  Stretch stretch_;
+  Stretch stretch_ = {};
+  bool of_gap_ = false;    ///< the roots of the gap are searched for, else those of the distance
+  bool has_none_ = false;  ///< that is known without a search
   double from_ = 0.0;
   FirstRoots* first_ = nullptr;
   int pieces_ = 0;

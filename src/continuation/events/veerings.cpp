@@ -229,7 +229,6 @@ class VeeringSearch {
   /// what moves it is not known.
   void keep_sensitivities_of_mean(const std::array<EigenvalueBelow, 2>& below, double t, Event& event) const {
     const PathProblem& problem = search_.problem();
-    RunCounts& counts = search_.solver.counts();
     InvariantPair pair;
     pair.chart = chart();
     pair.part = track().pair.part;
@@ -242,9 +241,8 @@ class VeeringSearch {
     prediction.pairs = {std::move(pair)};
     const auto there = search_.solver.solve(prediction, node.basis.T[0]);
     if (!there) return leave_unknown(problem.model.description().parameters.size(), event);
-    const auto unknown = [](const Track&, const PathNode&, const Track&) { return std::nan(""); };
-    keep_sensitivities(problem, there->point, there->node, there->node.tracks.front(), {0, 1}, unknown, event,
-                       counts);
+    keep_sensitivities(problem, there->point, there->node, there->node.tracks.front(), {0, 1}, {}, event,
+                       search_.solver.counts());
   }
 
   /// The modes of two eigenvalues at a place of the step or beside it, by the dense output. Where that is not
