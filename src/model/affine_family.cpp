@@ -1,77 +1,29 @@
 #include "eigentrail/model/affine_family.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 #include <string>
+#include <type_traits>
 
-#include "core/transposition.hpp"
 #include "model/affine_factor.hpp"
 #include "model/rotor/table_errors.hpp"
+#include "model/series_sum.hpp"
 
 namespace eigentrail {
 namespace {
 
-template <class Real, class Storage>
-struct StorageOf {
-  using Type = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  static Type zero(Eigen::Index n) { return Type::Zero(n, n); }
-};
-template <class Real>
-struct StorageOf<Real, SparseMatrix> {
-  using Type = Eigen::SparseMatrix<Real>;
-  static Type zero(Eigen::Index n) { return Type(n, n); }
-};
-
-/// Coefficients of a sum along the path up to h^order, without trailing zeros. All sparse coefficients have
-/// the pattern of the whole sum.
-template <class Real, int Q, class Storage>
-auto evaluate_sum(const std::vector<AffineTerm<Storage>>& terms, Eigen::Index n,
-                  const std::vector<Series<Real, Q>>& si, int order, bool& finite) {
-  using std::isfinite;
-  using Kind = StorageOf<Real, Storage>;
-  using Scalar = Series<Real, Q>;
-  std::vector<Scalar> factors;
-  std::size_t count = 1;
-  for (const AffineTerm<Storage>& term : terms) {
-    const Scalar& factor = factors.emplace_back(factor_of(term, std::span<const Scalar>(si)));
-    for (int k = 0; k <= order; ++k) {
-      finite = finite && isfinite(factor[k]);
-      if (factor[k] != Real(0.0)) count = std::max(count, static_cast<std::size_t>(k) + 1);
-    }
-  }
-  typename BasicLinearization<Real>::Coefficients result;
-  for (std::size_t k = 0; k < count; ++k) {
-    typename Kind::Type sum = Kind::zero(n);
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      const Real factor = factors[i][static_cast<int>(k)];
-      if (factor != Real(0.0)) sum += factor * terms[i].matrix.template cast<Real>();
-    }
-    result.emplace_back(std::move(sum));
-  }
-  return result;
-}
-
-/// Whether all terms are symmetric (sign 1) or skew-symmetric (-1).
-template <class Storage>
-bool equal_transposes(const std::vector<AffineTerm<Storage>>& terms, double sign) {
-  return std::all_of(terms.begin(), terms.end(),
-                     [sign](const AffineTerm<Storage>& term) { return equals_transpose(term.matrix, sign); });
-}
-
 template <class Storage>
 std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
   const auto count = [](const auto& terms) { return static_cast<int>(terms.size()); };
-  return {
-      {"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
-      {"C",
-       "damping and gyroscopic matrix",
-       count(pencil.C),
-       {.dissipative = !equal_transposes(pencil.C, -1.0), .gyroscopic = !equal_transposes(pencil.C, 1.0)}},
-      {"K",
-       "stiffness matrix",
-       count(pencil.K),
-       {.conservative = true, .circulatory = !equal_transposes(pencil.K, 1.0)}}};
+  return {{"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
+          {"C",
+           "damping and gyroscopic matrix",
+           count(pencil.C),
+           {.dissipative = !all_equal_transposes(pencil.C, -1.0),
+            .gyroscopic = !all_equal_transposes(pencil.C, 1.0)}},
+          {"K",
+           "stiffness matrix",
+           count(pencil.K),
+           {.conservative = true, .circulatory = !all_equal_transposes(pencil.K, 1.0)}}};
 }
 
 template <class Storage>
@@ -89,7 +41,7 @@ bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameter
 
 template <class Storage>
 AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<Storage> pencil)
-    : Model([&] {
+    : MatrixModel([&] {
         if (description.shafts.empty() || description.effects.empty())
           description.effects = effects_of(pencil);
         return std::move(description);
@@ -104,7 +56,8 @@ AffinePencil<Storage> AffineFamily<Storage>::at(const Vector& parameters) const 
   AffinePencil<Storage> result;
   const auto sum = [&](const std::vector<AffineTerm<Storage>>& terms) {
     std::vector<AffineTerm<Storage>> one(1);
-    one.front().matrix = StorageOf<double, Storage>::zero(n_coordinates());
+    one.front().matrix.resize(n_coordinates(), n_coordinates());
+    one.front().matrix.setZero();
     for (const AffineTerm<Storage>& term : terms)
       one.front().matrix += factor_of(term, std::span<const Series<double, 0>>(si))[0] * term.matrix;
     return one;
@@ -113,54 +66,36 @@ AffinePencil<Storage> AffineFamily<Storage>::at(const Vector& parameters) const 
 }
 
 template <class Storage>
-Vector AffineFamily<Storage>::initial_guess(const Vector&) const {
-  return Vector::Zero(n_coordinates());
-}
-
-template <class Storage>
 Structure AffineFamily<Storage>::structure(int traced_parameter) const {
-  Structure result;
-  for (const Effect& effect : description().effects) {
-    result.damped = result.damped || effect.contribution.dissipative;
-    result.gyroscopic = result.gyroscopic || effect.contribution.gyroscopic;
-    result.circulatory = result.circulatory || effect.contribution.circulatory;
-  }
+  Structure result = structure_of_effects();
   const Parameters& parameters = description().parameters;
-  result.symmetric_mass = equal_transposes(pencil_.M, 1.0);
+  result.symmetric_mass = all_equal_transposes(pencil_.M, 1.0);
   result.constant_mass = are_constant(pencil_.M, parameters, traced_parameter);
   result.constant_damping = are_constant(pencil_.C, parameters, traced_parameter);
   result.constant_stiffness = are_constant(pencil_.K, parameters, traced_parameter);
-  result.constant_constraints = true;
-  result.fixed_equilibrium = true;
-  result.known_equilibrium = true;
   return result;
-}
-
-template <class Storage>
-EvaluationFault AffineFamily<Storage>::residual(const Path& path, int order, SteadyResidual& result,
-                                                EvaluationCounts&) const {
-  if (!path.x.isZero(0.0)) throw std::invalid_argument("AffineFamily: expected the equilibrium x = 0");
-  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
-  result.constraint = VectorSeries::Zero(0, order + 1);
-  return {};
 }
 
 template <class Storage>
 template <class Real, int Q>
 EvaluationFault AffineFamily<Storage>::evaluate_all(const BasicPath<Real>& path, int order,
                                                     BasicLinearization<Real>& result) const {
+  using Dense = typename BasicSystemMatrix<Real>::Dense;
+  using Sparse = typename BasicSystemMatrix<Real>::Sparse;
+  using Sum = SeriesSum<std::conditional_t<std::is_same_v<Storage, SparseMatrix>, Sparse, Dense>, Q>;
   const auto si = si_series<Real, Q>(description().parameters, path);
   EvaluationFault fault;
   const auto evaluate = [&](const std::vector<AffineTerm<Storage>>& terms, const char* name) {
-    bool finite = true;
-    auto series = evaluate_sum<Real, Q>(terms, n_coordinates(), si, order, finite);
-    if (!finite && !fault) fault.source = name;
-    return series;
+    Sum sum(n_coordinates(), n_coordinates(), order);
+    for (const AffineTerm<Storage>& term : terms)
+      sum.add(factor_of(term, std::span<const Series<Real, Q>>(si)), term.matrix);
+    if (!sum.is_finite() && !fault) fault.source = name;
+    return sum.take();
   };
   result.M = evaluate(pencil_.M, "matrix M");
   result.C = evaluate(pencil_.C, "matrix C");
   result.K = evaluate(pencil_.K, "matrix K");
-  result.A = {typename BasicSystemMatrix<Real>::Dense(0, n_coordinates())};
+  result.A = {Dense(0, n_coordinates())};
   return fault;
 }
 
@@ -208,14 +143,6 @@ std::vector<Expression> AffineFamily<Storage>::expressions() const {
     }
   }
   return all;
-}
-
-template <class Storage>
-EvaluationFault AffineFamily<Storage>::extended_residual(const BasicPath<Extended>&,
-                                                         BasicSteadyResidual<Extended>& result) const {
-  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
-  result.constraint = ExtendedMatrix::Zero(0, 1);
-  return {};
 }
 
 template <class Storage>

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/transposition.hpp"
 #include "eigentrail/core/series.hpp"
 #include "eigentrail/core/text.hpp"
 #include "model/piecewise_chebyshev.hpp"
+#include "model/series_sum.hpp"
 
 namespace eigentrail {
 namespace {
@@ -177,18 +179,11 @@ std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& 
          (out_of_calls ? " or more calls" : "");
 }
 
-enum class FunctionSymmetry { symmetric, skew, none };
-
-/// FunctionSymmetry of all coefficients of one of the matrices.
-FunctionSymmetry symmetry(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix) {
-  bool symmetric = true, skew = true;
-  for (const FamilyPiece& piece : pieces) {
-    for (const Matrix& c : piece.*matrix) {
-      symmetric = symmetric && c == c.transpose();
-      skew = skew && c == -c.transpose();
-    }
-  }
-  return symmetric ? FunctionSymmetry::symmetric : skew ? FunctionSymmetry::skew : FunctionSymmetry::none;
+/// Whether all coefficients of one of the matrices are symmetric (sign 1) or skew-symmetric (-1).
+bool pieces_equal_transposes(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> FamilyPiece::*matrix,
+                             double sign) {
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [&](const FamilyPiece& piece) { return all_equal_transposes(piece.*matrix, sign); });
 }
 
 /// Makes a matrix exactly symmetric, or skew, if it is so but for rounding of the caller's function.
@@ -259,12 +254,11 @@ ModelDescription describe(const FunctionFamilyOptions& options, const std::vecto
                                           [](Eigen::Index i) { return "x" + std::to_string(i + 1); });
   description.coordinate_units =
       texts_of(options.state_units, "state_units", n, [](Eigen::Index) { return std::string("1"); });
-  const FunctionSymmetry c = symmetry(pieces, &FamilyPiece::C);
   const bool has_C = !is_constant(pieces, &FamilyPiece::C) || !pieces.front().C.front().isZero(0.0);
   Contribution parts{.inertia = true, .conservative = true};
-  parts.circulatory = symmetry(pieces, &FamilyPiece::K) != FunctionSymmetry::symmetric;
-  parts.dissipative = has_C && c != FunctionSymmetry::skew;
-  parts.gyroscopic = has_C && c != FunctionSymmetry::symmetric;
+  parts.circulatory = !pieces_equal_transposes(pieces, &FamilyPiece::K, 1.0);
+  parts.dissipative = has_C && !pieces_equal_transposes(pieces, &FamilyPiece::C, -1.0);
+  parts.gyroscopic = has_C && !pieces_equal_transposes(pieces, &FamilyPiece::C, 1.0);
   description.effects = {{"function",
                           "a function of the caller's: " + std::to_string(calls) + " calls, " +
                               std::to_string(pieces.size()) + (pieces.size() == 1 ? " piece" : " pieces"),
@@ -312,44 +306,18 @@ FunctionFamily::FunctionFamily(const Function& function, const FunctionFamilyOpt
     : FunctionFamily(interpolate<Interpolated>(function, options)) {}
 
 FunctionFamily::FunctionFamily(Interpolated interpolated)
-    : Model(std::move(interpolated.description)),
+    : MatrixModel(std::move(interpolated.description)),
       calls_(interpolated.calls),
       resolved_(interpolated.resolved),
       pieces_(std::move(interpolated.pieces)) {}
 
-Vector FunctionFamily::initial_guess(const Vector&) const {
-  return Vector::Zero(n_coordinates());
-}
-
 Structure FunctionFamily::structure(int) const {
-  const Contribution& parts = description().effects.front().contribution;
-  Structure structure;
-  structure.symmetric_mass = symmetry(pieces_, &FamilyPiece::M) == FunctionSymmetry::symmetric;
-  structure.damped = parts.dissipative;
-  structure.gyroscopic = parts.gyroscopic;
-  structure.circulatory = parts.circulatory;
+  Structure structure = structure_of_effects();
+  structure.symmetric_mass = pieces_equal_transposes(pieces_, &FamilyPiece::M, 1.0);
   structure.constant_mass = is_constant(pieces_, &FamilyPiece::M);
   structure.constant_damping = is_constant(pieces_, &FamilyPiece::C);
   structure.constant_stiffness = is_constant(pieces_, &FamilyPiece::K);
-  structure.constant_constraints = true;
-  structure.fixed_equilibrium = true;
-  structure.known_equilibrium = true;
   return structure;
-}
-
-EvaluationFault FunctionFamily::residual(const Path& path, int order, SteadyResidual& result,
-                                         EvaluationCounts&) const {
-  if (!path.x.isZero(0.0)) throw std::invalid_argument("FunctionFamily: expected the equilibrium x = 0");
-  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
-  result.constraint = VectorSeries::Zero(0, order + 1);
-  return {};
-}
-
-EvaluationFault FunctionFamily::extended_residual(const BasicPath<Extended>&,
-                                                  BasicSteadyResidual<Extended>& result) const {
-  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
-  result.constraint = ExtendedMatrix::Zero(0, 1);
-  return {};
 }
 
 std::vector<double> FunctionFamily::landings(int) const {
@@ -388,26 +356,18 @@ const FamilyPiece* FunctionFamily::piece_at(double p, double slope) const {
 
 namespace {
 
-/// sum_j coefficients[j] T_j(x(h)) up to h^order, without trailing zeros.
+/// sum_j coefficients[j] T_j(x(h)) up to h^order.
 template <class Real, int Q>
 auto chebyshev_sum(const std::vector<Matrix>& coefficients, const Series<Real, Q>& x, int order) {
-  using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  const std::size_t count = coefficients.size() == 1 ? 1 : static_cast<std::size_t>(order) + 1;
-  std::vector<Coefficient> result(
-      count, Coefficient::Zero(coefficients.front().rows(), coefficients.front().cols()));
+  DenseSum<Real, Q> sum(coefficients.front().rows(), coefficients.front().cols(), order);
   Series<Real, Q> T(1.0), before = x;  // T_{-1} = T_1
   for (const Matrix& matrix : coefficients) {
-    const Coefficient factor = matrix.template cast<Real>();
-    for (std::size_t k = 0; k < count; ++k) {
-      const Real& weight = T[static_cast<int>(k)];
-      if (weight != Real(0.0)) result[k] += weight * factor;
-    }
+    sum.add(T, matrix);
     Series<Real, Q> next = 2.0 * x * T - before;
     before = std::move(T);
     T = std::move(next);
   }
-  while (result.size() > 1 && result.back().isZero(Real(0.0))) result.pop_back();
-  return typename BasicLinearization<Real>::Coefficients(result.begin(), result.end());
+  return sum.take();
 }
 
 }  // namespace
@@ -432,9 +392,7 @@ EvaluationFault FunctionFamily::evaluate_all(const BasicPath<Real>& path, int or
   result.M = chebyshev_sum<Real, Q>(piece->M, x, order);
   result.C = chebyshev_sum<Real, Q>(piece->C, x, order);
   result.K = chebyshev_sum<Real, Q>(piece->K, x, order);
-  result.A.assign(1, typename BasicLinearization<Real>::Coefficients::value_type(
-                         Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>(
-                             Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>::Zero(0, n_coordinates()))));
+  result.A = {typename BasicSystemMatrix<Real>::Dense(0, n_coordinates())};
   ++counts.linearization[0];
   return {};
 }

@@ -3,79 +3,33 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numbers>
 
-namespace eigentrail {
+#include "core/transposition.hpp"
+#include "model/series_sum.hpp"
 
-/// SI values of the parameters along the path, and the variable of the family.
-template <class Scalar>
-struct ParameterSeries {
-  Scalar variable;
-  std::vector<Scalar> si;
-};
+namespace eigentrail {
 
 namespace {
 
+/// The polynomial along the path, for parameters `si`.
 template <class Real, int Q>
-ParameterSeries<Series<Real, Q>> parameter_series(const Parameters& parameters, int variable,
-                                                  const BasicPath<Real>& path) {
-  ParameterSeries<Series<Real, Q>> result;
-  result.si.resize(parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    for (int k = 0; k <= Q; ++k) {
-      result.si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
-    }
-  }
-  parameters.to_si(std::span<Series<Real, Q>>(result.si));
-  result.variable = result.si[static_cast<std::size_t>(variable)];
-  return result;
-}
-
-/// Coefficients of the polynomial along the path up to h^order, without trailing zeros.
-template <class Real, int Q>
-auto evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
-              const ParameterSeries<Series<Real, Q>>& parameters, int order, bool& finite) {
-  using std::isfinite;
+DenseSum<Real, Q> evaluate(const MatrixPolynomial& polynomial, Eigen::Index rows, Eigen::Index columns,
+                           int variable, const std::vector<Series<Real, Q>>& si, int order) {
   using Scalar = Series<Real, Q>;
-  using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  // only as many coefficients as are nonzero: zero matrices would cost as much as others
-  std::size_t count = 1;
-  const auto look_at = [&](const Scalar& factor) {
-    for (int k = 0; k <= order; ++k) {
-      finite = finite && isfinite(factor[k]);
-      if (factor[k] != Real(0.0)) count = std::max(count, static_cast<std::size_t>(k) + 1);
-    }
-  };
-  std::vector<Scalar> powers, values;
-  for (std::size_t j = 0; j < polynomial.coefficients.size(); ++j) {
-    powers.push_back(j == 0 ? Scalar(1.0) : powers.back() * parameters.variable);
-    look_at(powers.back());
+  DenseSum<Real, Q> sum(rows, columns, order);
+  std::vector<Scalar> powers;
+  for (const Matrix& coefficient : polynomial.coefficients) {
+    powers.push_back(powers.empty() ? Scalar(1.0) : powers.back() * si[static_cast<std::size_t>(variable)]);
+    sum.add(powers.back(), coefficient);
   }
   for (const MatrixPolynomial::Entry& entry : polynomial.entries) {
-    values.push_back(entry.expression.evaluate(std::span<const Scalar>(parameters.si)) *
-                     powers[static_cast<std::size_t>(entry.power)]);
-    look_at(values.back());
+    const Scalar value = entry.expression.evaluate(std::span<const Scalar>(si));
+    sum.add(value * powers[static_cast<std::size_t>(entry.power)], entry.row, entry.column);
   }
-  std::vector<Coefficient> result(count, Coefficient::Zero(rows, columns));
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto at = static_cast<int>(k);
-    for (std::size_t j = 0; j < powers.size(); ++j) {
-      if (powers[j][at] != Real(0.0))
-        result[k] += powers[j][at] * polynomial.coefficients[j].template cast<Real>();
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const MatrixPolynomial::Entry& entry = polynomial.entries[i];
-      result[k](entry.row, entry.column) += values[i][at];
-    }
-  }
-  while (result.size() > 1 && result.back().isZero(Real(0.0))) result.pop_back();
-  return typename BasicLinearization<Real>::Coefficients(std::make_move_iterator(result.begin()),
-                                                         std::make_move_iterator(result.end()));
+  return sum;
 }
-
-enum class Symmetry { symmetric, skew, none };
 
 /// Values of the parameters at which expressions are compared: those of the scene, and others beside them.
 std::vector<Vector> places_to_compare(const Parameters& parameters) {
@@ -110,33 +64,26 @@ bool is_zero(const MatrixPolynomial& polynomial) {
                      [](const Matrix& c) { return c.isZero(0.0); });
 }
 
-/// Symmetry of all coefficients. An entry that is an expression needs its counterpart across the diagonal.
-Symmetry symmetry(const MatrixPolynomial& polynomial, const Parameters& parameters) {
-  bool symmetric = true;
-  bool skew = true;
-  for (const Matrix& c : polynomial.coefficients) {
-    symmetric = symmetric && c == c.transpose();
-    skew = skew && c == -c.transpose();
-  }
+/// Whether a matrix is symmetric (sign 1) or skew-symmetric (-1). An entry that is an expression needs its
+/// counterpart across the diagonal.
+bool equals_its_transpose(const MatrixPolynomial& polynomial, double sign, const Parameters& parameters) {
+  if (!all_equal_transposes(polynomial.coefficients, sign)) return false;
   const std::vector<Vector> places = places_to_compare(parameters);
   std::map<std::array<Eigen::Index, 3>, const Expression*> entries;
   for (const MatrixPolynomial::Entry& entry : polynomial.entries)
     entries[{entry.power, entry.row, entry.column}] = &entry.expression;
-  for (const auto& [at, expression] : entries) {
-    const auto across = entries.find({at[0], at[2], at[1]});
-    const bool found = across != entries.end();
-    symmetric = symmetric && found && agree(*expression, *across->second, 1.0, places);
-    skew = skew && found && agree(*expression, *across->second, -1.0, places);
-    if (!symmetric && !skew) break;
-  }
-  return symmetric ? Symmetry::symmetric : skew ? Symmetry::skew : Symmetry::none;
+  return std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
+    const auto& [power, row, column] = entry.first;
+    const auto across = entries.find({power, column, row});
+    return across != entries.end() && agree(*entry.second, *across->second, sign, places);
+  });
 }
 
 }  // namespace
 
 MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
                            MatrixPolynomial K, MatrixPolynomial A, FamilyForm form)
-    : Model([&] {
+    : MatrixModel([&] {
         const auto count = [](const MatrixPolynomial& p) {
           return is_zero(p) ? 0 : static_cast<int>(p.coefficients.size());
         };
@@ -148,15 +95,19 @@ MatrixFamily::MatrixFamily(ModelDescription description, int variable, MatrixPol
               {"constraints", "constraint matrix", 0, {.constraint = true}}};
           return std::move(description);
         }
-        const Symmetry c = C.empty() ? Symmetry::symmetric : symmetry(C, description.parameters);
-        const bool k_symmetric = symmetry(K, description.parameters) == Symmetry::symmetric;
+        const Parameters& parameters = description.parameters;
+        const bool symmetric_C = equals_its_transpose(C, 1.0, parameters);
         description.effects = {
             {"M", "mass matrix, polynomial in the traced parameter", count(M), {.inertia = true}},
             {"C",
              "damping and gyroscopic matrix",
              count(C),
-             {.dissipative = c != Symmetry::skew, .gyroscopic = c != Symmetry::symmetric}},
-            {"K", "stiffness matrix", count(K), {.conservative = true, .circulatory = !k_symmetric}},
+             {.dissipative = symmetric_C || !equals_its_transpose(C, -1.0, parameters),
+              .gyroscopic = !symmetric_C}},
+            {"K",
+             "stiffness matrix",
+             count(K),
+             {.conservative = true, .circulatory = !equals_its_transpose(K, 1.0, parameters)}},
             {"A", "constraint matrix", count(A), {.constraint = true}}};
         return std::move(description);
       }()),
@@ -176,10 +127,6 @@ std::vector<Expression> MatrixFamily::expressions() const {
   return all;
 }
 
-Vector MatrixFamily::initial_guess(const Vector&) const {
-  return Vector::Zero(n_coordinates());
-}
-
 bool MatrixFamily::constant(const MatrixPolynomial& polynomial, int traced_parameter) const {
   const Parameters& parameters = description().parameters;
   if (polynomial.coefficients.size() > 1 && parameters.depends_on(variable_, traced_parameter)) return false;
@@ -190,20 +137,12 @@ bool MatrixFamily::constant(const MatrixPolynomial& polynomial, int traced_param
 }
 
 Structure MatrixFamily::structure(int traced_parameter) const {
-  Structure result;
-  for (const Effect& effect : description().effects) {
-    if (effect.count == 0) continue;
-    result.damped = result.damped || effect.contribution.dissipative;
-    result.gyroscopic = result.gyroscopic || effect.contribution.gyroscopic;
-    result.circulatory = result.circulatory || effect.contribution.circulatory;
-  }
-  result.symmetric_mass = symmetry(M_, description().parameters) == Symmetry::symmetric;
+  Structure result = structure_of_effects();
+  result.symmetric_mass = equals_its_transpose(M_, 1.0, description().parameters);
   result.constant_mass = constant(M_, traced_parameter);
   result.constant_damping = constant(C_, traced_parameter);
   result.constant_stiffness = constant(K_, traced_parameter);
   result.constant_constraints = constant(A_, traced_parameter);
-  result.fixed_equilibrium = true;
-  result.known_equilibrium = true;
   return result;
 }
 
@@ -236,31 +175,19 @@ CoefficientMatrices MatrixFamily::coefficient_matrices(const Vector&, int) const
   return {coefficients_of(M_, n), coefficients_of(C_, n), coefficients_of(K_, n)};
 }
 
-EvaluationFault MatrixFamily::residual(const Path& path, int order, SteadyResidual& result,
-                                       EvaluationCounts&) const {
-  // x = 0 and lambda = 0 solve A^T lambda + K x = 0, A x = 0 for all parameters.
-  if (!path.x.isZero(0.0) || !path.lambda.isZero(0.0)) {
-    throw std::invalid_argument("MatrixFamily: expected the equilibrium x = 0, lambda = 0");
-  }
-  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
-  result.constraint = VectorSeries::Zero(n_constraints(), order + 1);
-  return {};
-}
-
 template <class Real, int Q>
 EvaluationFault MatrixFamily::evaluate_all(const BasicPath<Real>& path, int order,
                                            BasicLinearization<Real>& result, EvaluationCounts& counts) const {
-  const auto parameters = parameter_series<Real, Q>(description().parameters, variable_, path);
+  const auto si = si_series<Real, Q>(description().parameters, path);
   const Eigen::Index n = n_coordinates();
   EvaluationFault fault;
   std::size_t effect = 0;
   const auto evaluate_one = [&](const MatrixPolynomial& polynomial, Eigen::Index rows, const char* name) {
-    bool finite = true;
-    auto series = evaluate<Real, Q>(polynomial, rows, n, parameters, order, finite);
-    if (!finite && !fault) fault.source = name;
+    DenseSum<Real, Q> sum = evaluate<Real, Q>(polynomial, rows, n, variable_, si, order);
+    if (!sum.is_finite() && !fault) fault.source = name;
     if (!polynomial.empty()) ++counts.linearization[effect];
     ++effect;
-    return series;
+    return sum.take();
   };
   result.M = evaluate_one(M_, n, "matrix M");
   result.C = evaluate_one(C_, n, "matrix C");
@@ -272,13 +199,6 @@ EvaluationFault MatrixFamily::evaluate_all(const BasicPath<Real>& path, int orde
 EvaluationFault MatrixFamily::linearize(const Path& path, int order, Linearization& result,
                                         EvaluationCounts& counts) const {
   return evaluate_all<double, max_order>(path, order, result, counts);
-}
-
-EvaluationFault MatrixFamily::extended_residual(const BasicPath<Extended>&,
-                                                BasicSteadyResidual<Extended>& result) const {
-  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
-  result.constraint = ExtendedMatrix::Zero(n_constraints(), 1);
-  return {};
 }
 
 EvaluationFault MatrixFamily::extended_linearization(const BasicPath<Extended>& path,

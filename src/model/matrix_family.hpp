@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "eigentrail/model/model.hpp"
+#include "eigentrail/model/matrix_model.hpp"
 #include "eigentrail/scene/scene.hpp"
 
 namespace eigentrail {
@@ -28,23 +28,18 @@ struct MatrixPolynomial {
 /// zero.
 enum class FamilyForm { second_order, first_order };
 
-class MatrixFamily final : public Model {
+class MatrixFamily final : public MatrixModel {
  public:
   /// `variable` is the index of the parameter whose powers multiply the coefficients. C and A may be empty.
   /// M, C and K are n x n, A is m x n; the caller must have checked the shapes.
   MatrixFamily(ModelDescription description, int variable, MatrixPolynomial M, MatrixPolynomial C,
                MatrixPolynomial K, MatrixPolynomial A, FamilyForm form = FamilyForm::second_order);
 
-  Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;
-  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
   CoefficientMatrices coefficient_matrices(const Vector&, int) const override;
   std::vector<Expression> expressions() const override;
-  EvaluationFault extended_residual(const BasicPath<Extended>& path,
-                                    BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
                                          BasicLinearization<Extended>& result) const override;
 

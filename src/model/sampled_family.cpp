@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/transposition.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/series_sum.hpp"
 
 namespace eigentrail {
 namespace {
@@ -47,19 +49,9 @@ std::array<PencilSamples, 3> all_samples(const SampledData& data) {
           std::move(stiffness)};
 }
 
-bool all_symmetric(const PencilSamples& list) {
-  return std::all_of(list.samples.begin(), list.samples.end(),
-                     [](const Matrix& one) { return one == one.transpose(); });
-}
-
 bool all_zero(const PencilSamples& list) {
   return std::all_of(list.samples.begin(), list.samples.end(),
                      [](const Matrix& one) { return one.isZero(0.0); });
-}
-
-bool all_skew(const PencilSamples& list) {
-  return std::all_of(list.samples.begin(), list.samples.end(),
-                     [](const Matrix& one) { return one == -one.transpose(); });
 }
 
 ModelDescription with_effects(ModelDescription description, const SampledData& data,
@@ -74,11 +66,12 @@ ModelDescription with_effects(ModelDescription description, const SampledData& d
       {states ? "E" : "C",
        states ? "samples of the matrix of the derivatives" : "samples of the damping and gyroscopic matrix",
        count(C),
-       {.dissipative = !all_skew(C), .gyroscopic = !all_symmetric(C)}},
+       {.dissipative = !all_equal_transposes(C.samples, -1.0),
+        .gyroscopic = !all_equal_transposes(C.samples, 1.0)}},
       {states ? "A" : "K",
        states ? "samples of the state matrix" : "samples of the stiffness matrix",
        count(K),
-       {.conservative = true, .circulatory = !all_symmetric(K)}}};
+       {.conservative = true, .circulatory = !all_equal_transposes(K.samples, 1.0)}}};
   return description;
 }
 
@@ -90,31 +83,21 @@ SampledFamily::SampledFamily(ModelDescription description, int variable, const S
 
 SampledFamily::SampledFamily(ModelDescription description, int variable, const SampledData& data,
                              std::vector<SamplePiece> pieces, std::array<PencilSamples, 3> samples)
-    : Model(with_effects(std::move(description), data, samples)),
+    : MatrixModel(with_effects(std::move(description), data, samples)),
       variable_(variable),
       values_(data.values),
       pieces_(std::move(pieces)),
       samples_(std::move(samples)),
       errors_(variable, values_, samples_, pieces_) {}
 
-Vector SampledFamily::initial_guess(const Vector&) const {
-  return Vector::Zero(n_coordinates());
-}
-
 Structure SampledFamily::structure(int traced_parameter) const {
   const bool moves = description().parameters.depends_on(variable_, traced_parameter);
   const auto& [M, C, K] = samples_;
-  Structure result;
-  result.symmetric_mass = all_symmetric(M);
-  result.damped = !all_zero(C) && !all_skew(C);
-  result.gyroscopic = !all_symmetric(C);
-  result.circulatory = !all_symmetric(K);
+  Structure result = structure_of_effects();
+  result.symmetric_mass = all_equal_transposes(M.samples, 1.0);
   result.constant_mass = !moves || M.is_constant();
   result.constant_damping = !moves || C.is_constant();
   result.constant_stiffness = !moves || K.is_constant();
-  result.constant_constraints = true;
-  result.fixed_equilibrium = true;
-  result.known_equilibrium = true;
   return result;
 }
 
@@ -131,26 +114,12 @@ std::vector<double> SampledFamily::kinks(int traced_parameter) const {
   return places;
 }
 
-EvaluationFault SampledFamily::residual(const Path& path, int order, SteadyResidual& result,
-                                        EvaluationCounts&) const {
-  if (!path.x.isZero(0.0)) throw std::invalid_argument("SampledFamily: expected the equilibrium x = 0");
-  result.force = VectorSeries::Zero(n_coordinates(), order + 1);
-  result.constraint = VectorSeries::Zero(0, order + 1);
-  return {};
-}
-
 template <class Real, int Q>
 EvaluationFault SampledFamily::evaluate_all(const BasicPath<Real>& path, int order,
                                             BasicLinearization<Real>& result,
                                             EvaluationCounts& counts) const {
   using Scalar = Series<Real, Q>;
-  using Coefficient = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  const Parameters& parameters = description().parameters;
-  std::vector<Scalar> si(parameters.size());
-  for (std::size_t i = 0; i < si.size(); ++i) {
-    for (int k = 0; k <= Q; ++k) si[i][k] = coefficient(path.parameters, static_cast<Eigen::Index>(i), k);
-  }
-  parameters.to_si(std::span<Scalar>(si));
+  const std::vector<Scalar> si = si_series<Real, Q>(description().parameters, path);
   const Scalar& x = si[static_cast<std::size_t>(variable_)];
   const double at = leading_value(x);
   const double slack = same_value * std::max(std::abs(values_.front()), std::abs(values_.back()));
@@ -163,39 +132,24 @@ EvaluationFault SampledFamily::evaluate_all(const BasicPath<Real>& path, int ord
   const auto evaluate_one = [&](const PencilSamples& samples) {
     if (description().effects[effect].count > 0) ++counts.linearization[effect];
     ++effect;
-    const int highest = samples.is_constant() ? 0 : order;
-    std::vector<Coefficient> series(static_cast<std::size_t>(highest) + 1,
-                                    Coefficient::Zero(n_coordinates(), n_coordinates()));
+    DenseSum<Real, Q> sum(n_coordinates(), n_coordinates(), order);
     if (samples.is_constant()) {
-      series[0] = samples.samples[0].template cast<Real>();
+      sum.add(Scalar(1.0), samples.samples[0]);
     } else {
-      for (std::size_t j = 0; j < basis.size(); ++j) {
-        const Coefficient sample = samples.at(piece.first + j).template cast<Real>();
-        for (int k = 0; k <= highest; ++k) {
-          if (basis[j][k] != Real(0.0)) series[static_cast<std::size_t>(k)] += basis[j][k] * sample;
-        }
-      }
+      for (std::size_t j = 0; j < basis.size(); ++j) sum.add(basis[j], samples.at(piece.first + j));
     }
-    return typename BasicLinearization<Real>::Coefficients(std::make_move_iterator(series.begin()),
-                                                           std::make_move_iterator(series.end()));
+    return sum.take();
   };
   result.M = evaluate_one(samples_[0]);
   result.C = evaluate_one(samples_[1]);
   result.K = evaluate_one(samples_[2]);
-  result.A = {Coefficient(0, n_coordinates())};
+  result.A = {typename BasicSystemMatrix<Real>::Dense(0, n_coordinates())};
   return {};
 }
 
 EvaluationFault SampledFamily::linearize(const Path& path, int order, Linearization& result,
                                          EvaluationCounts& counts) const {
   return evaluate_all<double, max_order>(path, order, result, counts);
-}
-
-EvaluationFault SampledFamily::extended_residual(const BasicPath<Extended>&,
-                                                 BasicSteadyResidual<Extended>& result) const {
-  result.force = ExtendedMatrix::Zero(n_coordinates(), 1);
-  result.constraint = ExtendedMatrix::Zero(0, 1);
-  return {};
 }
 
 EvaluationFault SampledFamily::extended_linearization(const BasicPath<Extended>& path,

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/hdf5_file.hpp"
-#include "eigentrail/model/model.hpp"
+#include "eigentrail/model/matrix_model.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/scene/scene.hpp"
@@ -12,24 +12,19 @@
 
 namespace eigentrail {
 
-class SampledFamily final : public Model {
+class SampledFamily final : public MatrixModel {
  public:
   /// `variable`: index of the parameter of the samples. `data`: samples in ascending order, checked; their
   /// values are in the SI unit of the variable.
   SampledFamily(ModelDescription description, int variable, const SampledData& data,
                 std::vector<SamplePiece> pieces);
 
-  Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;
-  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
   CoefficientMatrices coefficient_matrices(const Vector&, int) const override;
   std::vector<double> kinks(int traced_parameter) const override;
   const SampleErrors* sample_errors() const override { return &errors_; }
-  EvaluationFault extended_residual(const BasicPath<Extended>& path,
-                                    BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
                                          BasicLinearization<Extended>& result) const override;
 

@@ -5,6 +5,7 @@
 #include "core/products.hpp"
 #include "core/transposition.hpp"
 #include "model/affine_factor.hpp"
+#include "model/series_sum.hpp"
 #include "projection/row_block.hpp"
 
 namespace eigentrail {

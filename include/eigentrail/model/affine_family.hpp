@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "eigentrail/model/model.hpp"
+#include "eigentrail/model/matrix_model.hpp"
 
 namespace eigentrail {
 
@@ -38,9 +38,9 @@ struct AffinePencil {
   std::vector<AffineTerm<Storage>> M, C, K;
 };
 
-/// Storage is SparseMatrix or Matrix. The equilibrium is x = 0 for all parameters; there are no constraints.
+/// Storage is SparseMatrix or Matrix. There are no constraints.
 template <class Storage>
-class AffineFamily : public Model {
+class AffineFamily : public MatrixModel {
  public:
   /// The description gives n; its effects are the matrices, unless it has shafts and effects of its own. The
   /// caller must have checked the sizes.
@@ -50,10 +50,7 @@ class AffineFamily : public Model {
   /// The matrices at one place; `parameters` in declared units.
   AffinePencil<Storage> at(const Vector& parameters) const;
 
-  Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;
-  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
   /// None for sparse matrices: looking for common structure takes work and memory of dense ones.
@@ -61,8 +58,6 @@ class AffineFamily : public Model {
   std::vector<Expression> expressions() const override;
   /// Of tables whose argument is a parameter; none for sparse matrices.
   const SampleErrors* sample_errors() const override { return errors_.get(); }
-  EvaluationFault extended_residual(const BasicPath<Extended>& path,
-                                    BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
                                          BasicLinearization<Extended>& result) const override;
 

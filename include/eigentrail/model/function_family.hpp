@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "eigentrail/model/model.hpp"
+#include "eigentrail/model/matrix_model.hpp"
 
 namespace eigentrail {
 
@@ -67,7 +67,7 @@ struct FamilyPiece {
 ///
 /// Neighbouring pieces agree at the place where they meet, and their derivatives agree within the tolerance
 /// times the powers of the degree; steps of a trace pass it like any other.
-class FunctionFamily final : public Model {
+class FunctionFamily final : public MatrixModel {
  public:
   using Function = std::function<MatricesAt(double p)>;
 
@@ -82,10 +82,7 @@ class FunctionFamily final : public Model {
   /// The pieces, ascending.
   const std::vector<FamilyPiece>& pieces() const { return pieces_; }
 
-  Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override;
-  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
   /// A fault for values of the parameter beside the range.
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
                             EvaluationCounts& counts) const override;
@@ -93,8 +90,6 @@ class FunctionFamily final : public Model {
   /// Places where pieces meet, no closer than features that were looked for; and sharper ones, from both
   /// sides.
   std::vector<double> landings(int traced_parameter) const override;
-  EvaluationFault extended_residual(const BasicPath<Extended>& path,
-                                    BasicSteadyResidual<Extended>& result) const override;
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
                                          BasicLinearization<Extended>& result) const override;
 

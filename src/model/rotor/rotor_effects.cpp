@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/transposition.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/affine_factor.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
 namespace eigentrail {
@@ -34,12 +34,6 @@ bool is_left_out(const RotorDraft& rotor, std::size_t effect) {
 
 bool is_empty(const PencilSum& sum) {
   return sum.M.empty() && sum.C.empty() && sum.K.empty();
-}
-
-/// Whether all terms are symmetric (sign 1) or skew-symmetric (-1).
-bool all_equal_transposes(const std::vector<AffineTerm<SparseMatrix>>& terms, double sign) {
-  return std::all_of(terms.begin(), terms.end(),
-                     [sign](const auto& term) { return equals_transpose(term.matrix, sign); });
 }
 
 Contribution contribution_of(const PencilSum& sum, Eigen::Index n) {
