@@ -11,104 +11,53 @@
 namespace eigentrail {
 namespace {
 
-class BoundaryFile {
- public:
-  BoundaryFile(const BoundarySetup& setup, const BoundaryResult& result, const Parameter& first,
-               const Parameter& second)
-      : file_(Hdf5Writer::in_memory("boundary file")),
-        setup_(setup),
-        result_(result),
-        first_(first),
-        second_(second) {}
-
-  /// The whole file.
-  Hdf5Writer& write() {
-    write_attributes();
-    write_dimensions();
-    write_points();
-    write_steps();
-    write_curves();
-    write_corners();
-    return file_;
-  }
-
- private:
-  template <class Value>
-  void dimension(const std::string& name, const std::vector<Value>& values, const std::string& long_name) {
-    write_dimension(file_, {name, "1", long_name}, values);
-  }
-
-  /// Of `records` along the first dimension.
-  template <class Record, class Field>
-  void column(const DatasetLabel& label, const std::vector<std::string>& dimensions,
-              const std::vector<Record>& records, Field field,
-              std::map<std::string, std::string> attributes = {}) {
-    if (dimensions[0] == "point" && label.name != first_.name && label.name != second_.name)
-      attributes["coordinates"] = first_.name + " " + second_.name;
-    write_column(file_, label, dimensions, records, field, std::move(attributes));
-  }
-
-  void write_attributes();
-  void write_dimensions();
-  void write_points();
-  void write_steps();
-  void write_curves();
-  void write_corners();
-
-  Hdf5Writer file_;
-  const BoundarySetup& setup_;
-  const BoundaryResult& result_;
-  const Parameter& first_;
-  const Parameter& second_;
-};
-
-void BoundaryFile::write_attributes() {
-  const BoundaryOptions& options = setup_.options;
-  const auto number = [this](const std::string& name, auto value) {
-    file_.set_attribute(name, static_cast<std::int64_t>(value));
+void write_outcome(Hdf5Writer& file, const BoundaryOptions& options, const BoundaryResult& result) {
+  const auto number = [&file](const std::string& name, auto value) {
+    file.set_attribute(name, static_cast<std::int64_t>(value));
   };
-  write_provenance(file_, boundary_format, boundary_schema_version, setup_.scene, options.trace);
-  file_.set_attribute("second_parameter", second_.name);
-  file_.set_attribute("second_from", options.second_from);
-  file_.set_attribute("second_to", options.second_to);
-  file_.set_attribute("damping_ratio", options.damping_ratio ? exact_text(*options.damping_ratio) : "none");
+  file.set_attribute("second_from", options.second_from);
+  file.set_attribute("second_to", options.second_to);
+  file.set_attribute("damping_ratio", options.damping_ratio ? exact_text(*options.damping_ratio) : "none");
   number("lines", options.lines);
-  file_.set_attribute("reference", result_.s_ref);
-  write_notes(file_, result_.notes);
-  file_.set_attribute("status", result_.status == BoundaryStatus::completed ? "completed" : "incomplete");
-  file_.set_attribute("message", result_.message);
-  file_.set_attribute("seconds", result_.seconds);
-  number("count_curves", result_.curves.size());
-  number("count_corners", result_.corners.size());
-  number("count_lines", result_.lines);
-  number("count_seeds", result_.seeds);
-  number("count_walks", result_.walks);
-  number("count_islands", result_.islands);
-  number("count_rejected_steps", result_.rejected_steps);
-  number("count_mode_factorizations", result_.counts.modes.factorizations);
-  number("count_spectra", result_.counts.spectra);
-  number("count_equilibrium_factorizations", result_.counts.equilibrium_factorizations);
+  file.set_attribute("reference", result.s_ref);
+  write_notes(file, result.notes);
+  file.set_attribute("status", result.status == BoundaryStatus::completed ? "completed" : "incomplete");
+  file.set_attribute("message", result.message);
+  file.set_attribute("seconds", result.seconds);
+  number("count_curves", result.curves.size());
+  number("count_corners", result.corners.size());
+  number("count_lines", result.lines);
+  number("count_seeds", result.seeds);
+  number("count_walks", result.walks);
+  number("count_islands", result.islands);
+  number("count_rejected_steps", result.rejected_steps);
+  number("count_mode_factorizations", result.counts.modes.factorizations);
+  number("count_spectra", result.counts.spectra);
+  number("count_equilibrium_factorizations", result.counts.equilibrium_factorizations);
 }
 
-void BoundaryFile::write_dimensions() {
+void write_dimensions(Hdf5Writer& file, const BoundarySetup& setup, const BoundaryResult& result,
+                      const Parameter& first, const Parameter& second) {
+  const auto dimension = [&file](const char* name, const auto& values, const char* long_name) {
+    write_dimension(file, {name, "1", long_name}, values);
+  };
   std::size_t points = 0;
   std::size_t steps = 0;
-  for (const BoundaryCurve& curve : result_.curves) {
+  for (const BoundaryCurve& curve : result.curves) {
     points += curve.points.size();
     steps += curve.steps.size();
   }
   dimension("point", counted(points), "point of a curve");
   dimension("step", counted(steps), "step from a point of a curve to the next");
-  dimension("curve", counted(result_.curves.size()), "curve");
-  dimension("corner", counted(result_.corners.size()), "point that belongs to two curves");
-  dimension("coordinate", setup_.model->description().coordinate_names, "coordinate");
-  dimension("parameter", std::vector<std::string>{first_.name, second_.name}, "parameter of the plane");
-  dimension("function",
-            std::vector<std::string>{first_.name, second_.name, "mean", "squared half difference"},
+  dimension("curve", counted(result.curves.size()), "curve");
+  dimension("corner", counted(result.corners.size()), "point that belongs to two curves");
+  dimension("coordinate", setup.model->description().coordinate_names, "coordinate");
+  dimension("parameter", std::vector<std::string>{first.name, second.name}, "parameter of the plane");
+  dimension("function", std::vector<std::string>{first.name, second.name, "mean", "squared half difference"},
             "what is interpolated: the parameters, and of the pair s, conj s the mean tau and delta; "
             "s = tau + sqrt(delta)");
   dimension("end", std::vector<std::string>{"left", "right"}, "end of a step");
-  dimension("order", counted(static_cast<std::size_t>(setup_.options.trace.order.value_or(usual_order)) + 1),
+  dimension("order", counted(static_cast<std::size_t>(setup.options.trace.order.value_or(usual_order)) + 1),
             "power of the distance from the end of the step");
   dimension("bound", std::vector<std::string>{"lowest", "highest"}, "bound of an extent");
   dimension("member", std::vector<std::string>{"first", "second"}, "the two curves that meet in a corner");
@@ -134,59 +83,67 @@ std::vector<double> series_of(const BoundaryStep& step) {
   return series;
 }
 
-void BoundaryFile::write_points() {
+void write_points(Hdf5Writer& file, const BoundarySetup& setup, const BoundaryResult& result,
+                  const Parameter& first, const Parameter& second) {
   std::vector<PointOfCurve> points;
-  for (std::size_t i = 0; i < result_.curves.size(); ++i) {
-    for (const BoundaryPoint& point : result_.curves[i].points) points.push_back({&point, i});
+  for (std::size_t i = 0; i < result.curves.size(); ++i) {
+    for (const BoundaryPoint& point : result.curves[i].points) points.push_back({&point, i});
   }
   const auto of_point = [](auto member) {
     return [member](const PointOfCurve& one) { return one.point->*member; };
   };
   const auto coordinate = [](int i) { return [i](const PointOfCurve& one) { return one.point->place[i]; }; };
-  column({first_.name, label_unit(first_.unit), "first parameter " + first_.name}, {"point"}, points,
-         coordinate(0));
-  column({second_.name, label_unit(second_.unit), "second parameter " + second_.name}, {"point"}, points,
-         coordinate(1));
-  column({"point_curve", "1", "curve that the point belongs to"}, {"point"}, points, &PointOfCurve::curve);
-  column({"eigenvalue", "1/s", "eigenvalue s on the boundary, Im s >= 0"}, {"point"}, points,
-         of_point(&BoundaryPoint::s));
-  column({"tangent", "1",
-          "direction of the curve in the parameters' units, of unit length where the window has side one"},
-         {"point", "parameter"}, points, of_point(&BoundaryPoint::tangent));
-  column({"other_unstable", "1",
-          "number of other modes that are unstable (less damped); 0: the point bounds the stable region"},
-         {"point"}, points, of_point(&BoundaryPoint::others));
-  column({"mode_shape", "1",
-          "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
-         {"point", "coordinate"}, points, of_point(&BoundaryPoint::shape));
-  column({"equilibrium", setup_.model->description().coordinate_units[0], "steady equilibrium x0"},
-         {"point", "coordinate"}, points, of_point(&BoundaryPoint::equilibrium));
-  column({"flags", "1", "what is special about the point"}, {"point"}, points,
-         of_point(&BoundaryPoint::flags), {{"flag_meanings", "seed:1 edge:2 takens_bogdanov:4"}});
+  write_column(file, {first.name, label_unit(first.unit), "first parameter " + first.name}, {"point"}, points,
+               coordinate(0));
+  write_column(file, {second.name, label_unit(second.unit), "second parameter " + second.name}, {"point"},
+               points, coordinate(1));
+  std::map<std::string, std::string> attributes{{"coordinates", first.name + " " + second.name}};
+  const auto write = [&](const DatasetLabel& label, const std::vector<std::string>& dimensions, auto field) {
+    write_column(file, label, dimensions, points, field, attributes);
+  };
+  write({"point_curve", "1", "curve that the point belongs to"}, {"point"}, &PointOfCurve::curve);
+  write({"eigenvalue", "1/s", "eigenvalue s on the boundary, Im s >= 0"}, {"point"},
+        of_point(&BoundaryPoint::s));
+  write({"tangent", "1",
+         "direction of the curve in the parameters' units, of unit length where the window has side one"},
+        {"point", "parameter"}, of_point(&BoundaryPoint::tangent));
+  write({"other_unstable", "1",
+         "number of other modes that are unstable (less damped); 0: the point bounds the stable region"},
+        {"point"}, of_point(&BoundaryPoint::others));
+  write({"mode_shape", "1",
+         "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
+        {"point", "coordinate"}, of_point(&BoundaryPoint::shape));
+  write({"equilibrium", setup.model->description().coordinate_units[0], "steady equilibrium x0"},
+        {"point", "coordinate"}, of_point(&BoundaryPoint::equilibrium));
+  attributes["flag_meanings"] = "seed:1 edge:2 takens_bogdanov:4";
+  write({"flags", "1", "what is special about the point"}, {"point"}, of_point(&BoundaryPoint::flags));
 }
 
-void BoundaryFile::write_steps() {
+void write_steps(Hdf5Writer& file, const BoundaryResult& result) {
   std::vector<StepOfCurve> steps;
   std::size_t first = 0;
-  for (std::size_t i = 0; i < result_.curves.size(); ++i) {
-    const BoundaryCurve& curve = result_.curves[i];
+  for (std::size_t i = 0; i < result.curves.size(); ++i) {
+    const BoundaryCurve& curve = result.curves[i];
     for (std::size_t k = 0; k < curve.steps.size(); ++k) steps.push_back({&curve.steps[k], i, first + k});
     first += curve.points.size();
   }
-  column({"step_curve", "1", "curve that the step belongs to"}, {"step"}, steps, &StepOfCurve::curve);
-  column({"step_point", "1", "point at the left end of the step; the next one is at its right end"}, {"step"},
-         steps, &StepOfCurve::first);
-  column({"step_length", "1", "length of the step's chord where the window has side one"}, {"step"}, steps,
-         [](const StepOfCurve& one) { return one.step->length; });
-  column({"dense_output", "1", "series of the functions in the distance along the chord at both ends"},
-         {"step", "function", "end", "order"}, steps,
-         [](const StepOfCurve& one) { return series_of(*one.step); });
+  write_column(file, {"step_curve", "1", "curve that the step belongs to"}, {"step"}, steps,
+               &StepOfCurve::curve);
+  write_column(file,
+               {"step_point", "1", "point at the left end of the step; the next one is at its right end"},
+               {"step"}, steps, &StepOfCurve::first);
+  write_column(file, {"step_length", "1", "length of the step's chord where the window has side one"},
+               {"step"}, steps, [](const StepOfCurve& one) { return one.step->length; });
+  write_column(file,
+               {"dense_output", "1", "series of the functions in the distance along the chord at both ends"},
+               {"step", "function", "end", "order"}, steps,
+               [](const StepOfCurve& one) { return series_of(*one.step); });
 }
 
-void BoundaryFile::write_curves() {
+void write_curves(Hdf5Writer& file, const BoundaryResult& result) {
   using Curve = BoundaryCurve;
-  const auto write = [this](const DatasetLabel& label, auto field) {
-    column(label, {"curve"}, result_.curves, field);
+  const auto write = [&](const DatasetLabel& label, auto field) {
+    write_column(file, label, {"curve"}, result.curves, field);
   };
   const auto end_text = [](CurveEnd end, const std::string& reason) {
     return curve_end_name(end) + (reason.empty() ? "" : ": " + reason);
@@ -204,42 +161,53 @@ void BoundaryFile::write_curves() {
   });
   write({"curve_points", "1", "number of its points; a closed curve repeats its first"},
         [](const Curve& curve) { return curve.points.size(); });
-  column({"curve_extent", "1", "lowest and highest parameters, in their units"},
-         {"curve", "parameter", "bound"}, result_.curves, [](const Curve& curve) {
-           const auto [low, high] = curve.extent();
-           return std::array{low[0], high[0], low[1], high[1]};
-         });
+  write_column(file, {"curve_extent", "1", "lowest and highest parameters, in their units"},
+               {"curve", "parameter", "bound"}, result.curves, [](const Curve& curve) {
+                 const auto [low, high] = curve.extent();
+                 return std::array{low[0], high[0], low[1], high[1]};
+               });
 }
 
-void BoundaryFile::write_corners() {
-  const std::vector<Corner>& corners = result_.corners;
-  column({"corner_kind", "1",
-          "intersection: two curves intersect; takens_bogdanov: a curve of pairs ends on one of divergence"},
-         {"corner"}, corners, [](const Corner& corner) { return corner_name(corner.kind); });
-  column({"corner_parameter", "1", "place, in the parameters' units"}, {"corner", "parameter"}, corners,
-         &Corner::place);
-  column({"corner_eigenvalue", "1/s", "eigenvalues of both curves"}, {"corner", "member"}, corners,
-         &Corner::s);
-  column({"corner_curve", "1", "both curves"}, {"corner", "member"}, corners, &Corner::curves);
+void write_corners(Hdf5Writer& file, const BoundaryResult& result) {
+  const std::vector<Corner>& corners = result.corners;
+  write_column(
+      file,
+      {"corner_kind", "1",
+       "intersection: two curves intersect; takens_bogdanov: a curve of pairs ends on one of divergence"},
+      {"corner"}, corners, [](const Corner& corner) { return corner_name(corner.kind); });
+  write_column(file, {"corner_parameter", "1", "place, in the parameters' units"}, {"corner", "parameter"},
+               corners, &Corner::place);
+  write_column(file, {"corner_eigenvalue", "1/s", "eigenvalues of both curves"}, {"corner", "member"},
+               corners, &Corner::s);
+  write_column(file, {"corner_curve", "1", "both curves"}, {"corner", "member"}, corners, &Corner::curves);
+}
+
+Hdf5Writer boundary_writer(const BoundarySetup& setup, const BoundaryResult& result, const Parameter& first,
+                           const Parameter& second) {
+  Hdf5Writer file = Hdf5Writer::in_memory("boundary file");
+  write_provenance(file, boundary_format, boundary_schema_version, setup.scene, setup.options.trace);
+  file.set_attribute("second_parameter", second.name);
+  write_outcome(file, setup.options, result);
+  write_dimensions(file, setup, result, first, second);
+  write_points(file, setup, result, first, second);
+  write_steps(file, result);
+  write_curves(file, result);
+  write_corners(file, result);
+  return file;
 }
 
 }  // namespace
 
 void check_boundary_names(const BoundarySetup& setup) {
-  const BoundaryResult none;
-  Parameter first, second;
-  first.name = "first parameter";
-  second.name = "second parameter";
-  BoundaryFile file(setup, none, first, second);
-  require_other_names(setup.scene, {setup.options.trace.parameter, setup.options.second}, file.write(),
-                      "plane", "the boundary file");
+  const auto [first, second] = parameters_of_other_names();
+  require_other_names(setup.scene, {setup.options.trace.parameter, setup.options.second},
+                      boundary_writer(setup, {}, first, second), "plane", "the boundary file");
 }
 
 std::string boundary_file(const BoundarySetup& setup, const BoundaryResult& result) {
   const Parameters& parameters = setup.scene.parameters;
-  return BoundaryFile(setup, result, parameters.at(setup.options.trace.parameter),
-                      parameters.at(setup.options.second))
-      .write()
+  return boundary_writer(setup, result, parameters.at(setup.options.trace.parameter),
+                         parameters.at(setup.options.second))
       .image();
 }
 

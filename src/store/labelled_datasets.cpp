@@ -4,18 +4,17 @@
 
 namespace eigentrail {
 
-std::vector<std::int64_t> counted(std::size_t count) {
+std::vector<std::int64_t> counted(std::size_t count, std::size_t first) {
   std::vector<std::int64_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
+  std::iota(numbers.begin(), numbers.end(), static_cast<std::int64_t>(first));
   return numbers;
 }
 
-Matrix read_matrix(const Hdf5File& file, const std::string& name, std::size_t rows, std::size_t columns) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  file.require_fit(file.shape(name) == Shape{rows, columns}, name);
-  const std::vector<double> data = rows * columns == 0 ? std::vector<double>() : file.read_real(name);
-  return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(rows),
-                                    static_cast<Eigen::Index>(columns));
+std::pair<Parameter, Parameter> parameters_of_other_names() {
+  std::pair<Parameter, Parameter> both;
+  both.first.name = "first parameter";
+  both.second.name = "second parameter";
+  return both;
 }
 
 void require_other_names(const Scene& scene, const std::vector<std::string>& parameters,

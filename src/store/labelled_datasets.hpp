@@ -49,20 +49,22 @@ void write_dataset(Hdf5Writer& file, const DatasetLabel& label, const std::vecto
     file.attach_scale(label.name, dimensions[d], static_cast<unsigned>(d));
 }
 
-/// Writes a one-dimensional dataset and makes it the scale of a dimension of the same name.
+/// Writes a one-dimensional dataset and makes it the scale of a dimension of the same name. `growing`: it may
+/// be extended later.
 template <class Element>
-void write_dimension(Hdf5Writer& file, const DatasetLabel& label, const std::vector<Element>& values) {
+void write_dimension(Hdf5Writer& file, const DatasetLabel& label, const std::vector<Element>& values,
+                     bool growing = false) {
   file.create_dataset({label.name,
                        element_type<Element>(),
                        {values.size()},
-                       values.empty(),
+                       growing || values.empty(),
                        {{"units", label.units}, {"long_name", label.long_name}}});
   if (!values.empty()) file.write_rows(label.name, 0, values);
   file.make_scale(label.name, label.name);
 }
 
-/// 0, 1, ..., count - 1, the labels of a dimension without others.
-std::vector<std::int64_t> counted(std::size_t count);
+/// `count` numbers from `first` on, the labels of a dimension without others.
+std::vector<std::int64_t> counted(std::size_t count, std::size_t first = 0);
 
 /// What a dataset holds of a value: whole numbers have 64 bits, and of vectors it holds the elements.
 template <class Value>
@@ -112,7 +114,23 @@ std::vector<Scalar> row_major(const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen:
 }
 
 /// A dataset of this size. Throws Hdf5Error if it has another one.
-Matrix read_matrix(const Hdf5File& file, const std::string& name, std::size_t rows, std::size_t columns);
+template <class Scalar = double>
+Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> read_matrix(const Hdf5File& file,
+                                                                  const std::string& name, std::size_t rows,
+                                                                  std::size_t columns) {
+  file.require_fit(file.shape(name) == Shape{rows, columns}, name);
+  std::vector<Scalar> data;
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (rows * columns > 0) data = file.read_real(name);
+  } else {
+    if (rows * columns > 0) data = file.read_complex(name);
+  }
+  using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return RowMajor::Map(data.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+}
+
+/// Parameters of a plane with names that no scene can give: with a blank.
+std::pair<Parameter, Parameter> parameters_of_other_names();
 
 /// Throws InputError if one of these parameters has the name of a dataset of `written`, a file in which they
 /// have other names. `of` and `file` are for the message: "plane", "the boundary file".

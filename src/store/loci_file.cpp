@@ -51,18 +51,6 @@ void read_points(const Hdf5File& file, LociFile& loci) {
   }
 }
 
-template <class Item>
-std::vector<Item> read_event_rows(const Hdf5File& file, const std::string& name, const LociFile& loci,
-                                  std::size_t rows, std::size_t columns) {
-  require(file.shape(name) == Shape{rows, columns}, loci, name);
-  if (rows * columns == 0) return {};
-  if constexpr (std::is_same_v<Item, double>) {
-    return file.read_real(name);
-  } else {
-    return file.read_complex(name);
-  }
-}
-
 void read_events(const Hdf5File& file, LociFile& loci) {
   const std::vector<std::string> lines = file.read_texts("events");
   const std::vector<double> parameters = file.read_real("event_parameter");
@@ -77,28 +65,26 @@ void read_events(const Hdf5File& file, LociFile& loci) {
   const std::vector<std::int64_t> directions = file.read_integers("event_direction");
   const std::vector<double> values = file.read_real("event_value");
   const std::vector<std::int64_t> nodes = file.read_integers("event_node");
-  const std::size_t coordinates = loci.coordinates.size();
-  const std::vector<Complex> shapes = read_event_rows<Complex>(file, "event_shape", loci, count, coordinates);
   const std::size_t n = loci.scene_parameters.size();
-  const auto sensitivities = read_event_rows<Complex>(file, "event_sensitivity", loci, count, n);
-  const auto shifts = read_event_rows<double>(file, "event_shift", loci, count, n);
+  for (const auto& [name, columns] :
+       {std::pair("event_shape", loci.coordinates.size()), {"event_sensitivity", n}, {"event_shift", n}})
+    require(file.shape(name) == Shape{count, columns}, loci, name);
+  const ComplexMatrix shapes = read_matrix<Complex>(file, "event_shape", count, loci.coordinates.size());
+  const ComplexMatrix sensitivities = read_matrix<Complex>(file, "event_sensitivity", count, n);
+  const Matrix shifts = read_matrix(file, "event_shift", count, n);
   require(directions.size() == count && values.size() == count && nodes.size() == count, loci, "events");
   for (const std::int64_t direction : directions)
     require(direction >= -1 && direction <= 1, loci, "event_direction");
-  const auto row = [](const auto& all, std::size_t i, std::size_t size) {
-    using Item = typename std::decay_t<decltype(all)>::value_type;
-    return Eigen::Matrix<Item, Eigen::Dynamic, 1>::Map(all.data() + i * size,
-                                                       static_cast<Eigen::Index>(size));
-  };
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t kind = lines[i].find(',');
     const std::size_t modes = lines[i].rfind(',');
     require(kind != std::string::npos && modes > kind, loci, "events");
     require(nodes[i] >= 0 && nodes[i] < static_cast<std::int64_t>(loci.n_nodes()), loci, "event_node");
+    const auto row = static_cast<Eigen::Index>(i);
     loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
                            lines[i].substr(modes + 1), half_widths[i], puiseux[i],
                            static_cast<int>(directions[i]), values[i], static_cast<int>(nodes[i]),
-                           row(shapes, i, coordinates), row(sensitivities, i, n), row(shifts, i, n)});
+                           shapes.row(row), sensitivities.row(row), shifts.row(row)});
   }
 }
 

@@ -1,62 +1,65 @@
-// Appends points and steps to the datasets of a loci file.
+// The datasets of a loci file that grow during a trace (loci_schema.hpp).
 #pragma once
 
 #include <map>
+#include <span>
 
 #include "core/hdf5_writer.hpp"
-#include "eigentrail/continuation/trace_options.hpp"
+#include "store/loci_schema.hpp"
 
 namespace eigentrail {
 
-/// Points and steps that are not written yet; every member is a flat row-major array of one dataset.
-struct LociRows {
-  std::vector<double> parameter, frequency, damped_frequency, damping_ratio, residual, condition, rounding,
-      equilibrium, multiplier;
-  std::vector<double> whirl, whirl_reverse;  ///< only of models in which something spins
-  std::vector<Complex> eigenvalue, eigenvalue_derivative, mode_shape;
-  std::vector<double> step_length, step_parameter;
-  std::vector<std::vector<double>> trimmed, step_trimmed;  ///< per trimmed parameter
-  std::vector<Complex> dense_output;
-  std::vector<std::int64_t> dense_block, dense_chart, mode_block, certified, growing_unfollowed;
+/// Creates all datasets in `file`, which must be empty: for `modes` modes and power series of this order.
+/// `motions`: labels of the motions of the model's masses.
+void create_loci_datasets(Hdf5Writer& file, const Model& model, const TraceOptions& options, int order,
+                          std::size_t modes, const std::vector<std::string>& motions);
 
-  std::size_t points() const { return parameter.size(); }
-  std::size_t steps() const { return step_length.size(); }
-};
-
+/// Appends rows to them. Rows of the dimensions `node` and `step` are collected before they are written.
 class LociTables {
  public:
-  /// Creates all datasets in `file`, which must be empty: for `modes` modes and power series of this order.
-  /// `motions`: labels of the motions of the model's masses.
-  LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options, int order, std::size_t modes,
-             const std::vector<std::string>& motions);
-
-  /// Continues a file that has the datasets, behind the rows that are written.
+  /// For a file that has the datasets, behind the rows that are written.
   LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options);
 
-  std::size_t modes() const { return modes_; }
-  std::size_t functions() const { return functions_; }  ///< rows of dense output per step
+  std::size_t modes() const { return sizes_.at("mode"); }
 
-  /// Extends the datasets to more modes or functions. The new elements of existing rows read as NaN, or -1
-  /// for integers. Rows that are not written yet have the old width: they must be appended first.
+  /// Extends the datasets to more modes, or functions of the dense output. The new elements of existing rows
+  /// read as NaN, or -1 for integers.
   void grow_modes(std::size_t wanted);
   void grow_functions(std::size_t wanted);
 
-  void append(const LociRows& rows);
+  /// Begins a row in all datasets along a dimension, `node` or `step`. Its elements are NaN, or -1 for
+  /// integers, until they are set.
+  void begin_row(const std::string& dimension);
+
+  /// The elements of the row of a dataset that was begun last, row-major.
+  template <class Element>
+  std::span<Element> row(const std::string& dataset) {
+    Column& column = column_called(dataset);
+    return std::span(std::get<std::vector<Element>>(column.rows)).last(width(column));
+  }
+
+  /// Number of nodes that have been begun and not written.
+  std::size_t pending() const { return begun_.at("node"); }
+  void write_rows();
 
   Hdf5Writer& file() { return file_; }
 
  private:
-  void create_dimensions(const ModelDescription& description, int order, std::size_t modes);
-  void extend(const std::string& dimension, std::size_t size);
+  /// A dataset and its rows that are not written yet.
+  struct Column {
+    GrowingDataset dataset;
+    decltype(StoredArray::elements) rows;
+  };
+
+  Column& column_called(const std::string& dataset);
+  std::size_t width(const Column& column) const;  ///< elements of a row
+  template <class Label>
+  void grow(const std::string& dimension, const std::vector<Label>& added);
 
   Hdf5Writer file_;
-  std::string parameter_;
-  std::vector<std::string> trimmed_;  ///< names of trimmed parameters
-  bool has_constraints_ = false;
-  std::size_t modes_ = 0, functions_ = 0;
-  std::uint64_t points_ = 0, steps_ = 0;  ///< numbers written so far
-  /// Per dimension: the growing datasets that have it, and its position among their dimensions.
-  std::map<std::string, std::vector<std::pair<std::string, unsigned>>> extensible_;
+  std::vector<Column> columns_;
+  std::map<std::string, std::size_t> sizes_;                            ///< per dimension, as written
+  std::map<std::string, std::size_t> begun_{{"node", 0}, {"step", 0}};  ///< rows that are not written
 };
 
 }  // namespace eigentrail

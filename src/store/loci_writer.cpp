@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "core/archive.hpp"
 #include "core/blas.hpp"
@@ -12,15 +11,15 @@
 #include "eigentrail/modes/whirl.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
 #include "store/data_error_datasets.hpp"
-#include "store/loci_schema.hpp"
+#include "store/labelled_datasets.hpp"
 #include "store/loci_summary.hpp"
 #include "store/loci_tables.hpp"
+#include "store/marked_data.hpp"
 #include "store/mode_motions.hpp"
 #include "store/output_lock.hpp"
 #include "store/projection_datasets.hpp"
 #include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
-#include "store/saved_state.hpp"
 #include "store/shaft_datasets.hpp"
 
 namespace eigentrail {
@@ -30,7 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_rows = 256;  ///< points that are collected before they are written to the tables
 constexpr double largest_share = 0.05;  ///< largest fraction of the time that may be spent on saving
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -65,10 +63,8 @@ struct LociWriter::Implementation {
   LociTables tables;
   const Model& model;
   std::string parameter;
-  std::size_t coordinates;
   SaveOptions saving;
   ModeMotions motions;
-  LociRows rows = {};
   std::vector<ComplexVector> last_shapes = {};  ///< per mode: its shape at the last point where it existed
   std::size_t events = 0;                       ///< number of events written so far
   bool is_saved = false;                        ///< whether this run has saved the file
@@ -78,9 +74,9 @@ struct LociWriter::Implementation {
   std::vector<GivenName> wanted_names = {};  ///< of the scene, until the first point has come
   std::string scene_path = {};
 
+  void append_point(const TracePoint& point);
   void append_modes(const TracePoint& point);
   void append_step(const PathStep& step);
-  void write_rows();
   void update(const TraceResult& result, const char* status);
   void save(const Checkpoint& checkpoint, const char* status);
   void save(std::string image, std::string_view state);
@@ -104,7 +100,8 @@ LociTables new_tables(const std::string& path, const Scene& scene, const Model& 
   std::string data;
   for (const auto& [label, text] : model.description().data) data += label + ": " + text + "\n";
   if (!data.empty()) file.set_attribute("model_data", data);
-  return {std::move(file), model, options, start.order, static_cast<std::size_t>(start.n_modes), motions};
+  create_loci_datasets(file, model, options, start.order, static_cast<std::size_t>(start.n_modes), motions);
+  return {std::move(file), model, options};
 }
 
 }  // namespace
@@ -118,8 +115,7 @@ LociWriter::LociWriter(const std::string& path, const Scene& scene, const Model&
   const Hdf5Turn turn;
   LociTables tables = new_tables(path, scene, model, options, start, motions.labels());
   implementation_.reset(new Implementation{path, std::move(lock), std::move(tables), model, options.parameter,
-                                           static_cast<std::size_t>(model.n_coordinates()), saving,
-                                           std::move(motions)});
+                                           saving, std::move(motions)});
   implementation_->wanted_names = options.mode_names;
   implementation_->scene_path = scene.path;
 }
@@ -129,22 +125,14 @@ LociWriter::LociWriter(const std::string& path, const Model& model, const TraceO
   auto lock = lock_of(path, saving);
   const Hdf5Turn turn;
   LociTables tables(Hdf5Writer::from_image(path, saved.image), model, options);
-  implementation_.reset(new Implementation{path,
-                                           std::move(lock),
-                                           std::move(tables),
-                                           model,
-                                           options.parameter,
-                                           static_cast<std::size_t>(model.n_coordinates()),
-                                           saving,
-                                           {}});
+  implementation_.reset(
+      new Implementation{path, std::move(lock), std::move(tables), model, options.parameter, saving, {}});
   implementation_->saving.existing = Existing::replace;
   const std::string& other = saved.other_kernel;
   if (!other.empty() && !other.ends_with(blas_kernel()))
     implementation_->tables.file().set_attribute("blas_kernel", other + ", " + blas_kernel());
   try {
-    ArchiveReader archive(saved.writer);
-    archive(implementation_->last_shapes, implementation_->motions, implementation_->events);
-    archive.finish();
+    unpack(saved.writer, implementation_->last_shapes, implementation_->motions, implementation_->events);
   } catch (const ArchiveError& error) {
     throw InputError(path + ": the state of the trace is damaged: " + error.what());
   }
@@ -162,81 +150,81 @@ LociWriter::~LociWriter() {
   implementation_.reset();
 }
 
+void LociWriter::Implementation::append_point(const TracePoint& point) {
+  tables.begin_row("node");
+  tables.row<double>(parameter)[0] = point.node.p;
+  tables.row<std::int64_t>("growing_unfollowed")[0] = point.growing_unfollowed;
+  std::ranges::copy(point.node.path.x.col(0), tables.row<double>("equilibrium").begin());
+  const Eigen::Index m = model.n_constraints();
+  const Vector lambda = point.node.path.lambda.col(0);
+  if (m > 0) std::ranges::copy(lambda.head(m), tables.row<double>("multiplier").begin());
+  const std::vector<std::string> trimmed = trimmed_names(model.description());
+  for (std::size_t i = 0; i < trimmed.size(); ++i)
+    tables.row<double>(trimmed[i])[0] = lambda[m + static_cast<Eigen::Index>(i)];
+  append_modes(point);
+}
+
 void LociWriter::Implementation::append_modes(const TracePoint& point) {
-  const std::size_t begin = rows.eigenvalue.size();
-  const SystemMatrix& mass = point.node.linearization.M[0];
-  last_shapes.resize(tables.modes());
-  rows.eigenvalue.resize(begin + tables.modes(), Complex(nan, nan));
-  rows.eigenvalue_derivative.resize(begin + tables.modes(), Complex(nan, nan));
-  for (auto* column : {&rows.frequency, &rows.damped_frequency, &rows.damping_ratio, &rows.residual,
-                       &rows.condition, &rows.rounding})
-    column->resize(begin + tables.modes(), nan);
-  rows.mode_shape.resize((begin + tables.modes()) * coordinates, Complex(nan, nan));
+  const auto eigenvalue = tables.row<Complex>("eigenvalue");
+  const auto derivative = tables.row<Complex>("eigenvalue_derivative");
+  const auto frequency = tables.row<double>("frequency");
+  const auto damped_frequency = tables.row<double>("damped_frequency");
+  const auto damping_ratio = tables.row<double>("damping_ratio");
+  const auto residual = tables.row<double>("residual");
+  const auto condition = tables.row<double>("condition");
+  const auto rounding = tables.row<double>("rounding");
+  const auto shapes = tables.row<Complex>("mode_shape");
   const bool spins = has_whirl(model.description());
-  if (spins) {
-    rows.whirl.resize(begin + tables.modes(), nan);
-    rows.whirl_reverse.resize(begin + tables.modes(), nan);
-  }
   const Vector parameters = point.node.path.parameters.col(0);
+  last_shapes.resize(tables.modes());
   for (const ModeState& state : point.modes) {
     const auto mode = static_cast<std::size_t>(state.mode);
-    const std::size_t at = begin + mode;
     if (spins && state.s.imag() != 0.0) {
       const Whirl whirl = whirl_of(model, parameters, state.shape);
-      rows.whirl[at] = whirl.measure;
-      rows.whirl_reverse[at] = whirl.reverse;
+      tables.row<double>("whirl")[mode] = whirl.measure;
+      tables.row<double>("whirl_reverse")[mode] = whirl.reverse;
     }
     const double size = std::abs(state.s);
-    rows.eigenvalue[at] = state.s;
-    rows.eigenvalue_derivative[at] = state.slope;
-    rows.frequency[at] = size;
-    rows.damped_frequency[at] = std::abs(state.s.imag());
-    rows.damping_ratio[at] = std::isfinite(size) ? -state.s.real() / size + 0.0 : 0.0;
-    rows.residual[at] = state.backward_error;
-    rows.condition[at] = state.condition;
-    rows.rounding[at] = state.rounding;
+    eigenvalue[mode] = state.s;
+    derivative[mode] = state.slope;
+    frequency[mode] = size;
+    damped_frequency[mode] = std::abs(state.s.imag());
+    damping_ratio[mode] = std::isfinite(size) ? -state.s.real() / size + 0.0 : 0.0;
+    residual[mode] = state.backward_error;
+    condition[mode] = state.condition;
+    rounding[mode] = state.rounding;
     ComplexVector& shape = last_shapes[mode];
-    shape = normalize_shape(state.shape, mass, shape);
-    std::copy(shape.begin(), shape.end(),
-              rows.mode_shape.begin() + static_cast<std::ptrdiff_t>(at * coordinates));
+    shape = normalize_shape(state.shape, point.node.linearization.M[0], shape);
+    const auto n = static_cast<std::size_t>(shape.size());
+    std::ranges::copy(shape, shapes.subspan(mode * n, n).begin());
   }
 }
 
 void LociWriter::Implementation::append_step(const PathStep& step) {
-  const std::size_t functions = rows.steps() * tables.functions();
-  const std::size_t modes = rows.steps() * tables.modes();
-  const auto orders = static_cast<std::size_t>(step.parameter.cols());
-  rows.step_length.push_back(step.length);
-  for (Eigen::Index end = 0; end < 2; ++end) {
-    for (Eigen::Index k = 0; k < step.parameter.cols(); ++k)
-      rows.step_parameter.push_back(step.parameter(end, k));
-  }
-  rows.step_trimmed.resize(step.trimmed.size());
-  for (std::size_t i = 0; i < step.trimmed.size(); ++i) {
-    for (Eigen::Index end = 0; end < 2; ++end) {
-      const auto series = step.trimmed[i].row(end);
-      rows.step_trimmed[i].insert(rows.step_trimmed[i].end(), series.begin(), series.end());
-    }
-  }
-  rows.dense_output.resize((functions + tables.functions()) * 2 * orders, Complex(nan, nan));
-  rows.dense_block.resize(functions + tables.functions(), -1);
-  rows.dense_chart.resize(functions + tables.functions(), -1);
-  rows.mode_block.resize(modes + tables.modes(), -1);
-  rows.certified.resize(modes + tables.modes(), -1);
+  tables.begin_row("step");
+  tables.row<double>("step_length")[0] = step.length;
+  std::ranges::copy(row_major(step.parameter), tables.row<double>("step_parameter").begin());
+  const std::vector<std::string> trimmed = trimmed_names(model.description());
+  for (std::size_t i = 0; i < trimmed.size(); ++i)
+    std::ranges::copy(row_major(step.trimmed[i]), tables.row<double>(step_dataset(trimmed[i])).begin());
+  const auto output = tables.row<Complex>("dense_output");
+  const auto dense_block = tables.row<std::int64_t>("dense_block");
+  const auto dense_chart = tables.row<std::int64_t>("dense_chart");
+  const auto mode_block = tables.row<std::int64_t>("mode_block");
+  const auto certified = tables.row<std::int64_t>("certified");
   std::size_t row = 0;
+  auto at = output.begin();
   for (const DenseBlock& block : step.blocks) {
     const auto number = static_cast<std::int64_t>(row);
     for (const int mode : block.modes) {
-      rows.mode_block[modes + static_cast<std::size_t>(mode)] = number;
-      rows.certified[modes + static_cast<std::size_t>(mode)] = block.certified ? 1 : 0;
+      mode_block[static_cast<std::size_t>(mode)] = number;
+      certified[static_cast<std::size_t>(mode)] = block.certified ? 1 : 0;
     }
     for (Eigen::Index i = 0; i < block.left.rows(); ++i, ++row) {
-      rows.dense_block[functions + row] = number;
-      rows.dense_chart[functions + row] = block.chart == Chart::finite ? 0 : 1;
-      std::size_t at = (functions + row) * 2 * orders;
-      for (const ComplexMatrix* end : {&block.left, &block.right}) {
-        for (Eigen::Index k = 0; k < end->cols(); ++k) rows.dense_output[at++] = (*end)(i, k);
-      }
+      dense_block[row] = number;
+      dense_chart[row] = block.chart == Chart::finite ? 0 : 1;
+      for (const ComplexMatrix* end : {&block.left, &block.right})
+        at = std::ranges::copy(end->row(i), at).out;
     }
   }
 }
@@ -246,46 +234,26 @@ void LociWriter::append(const TracePoint& point) {
   std::size_t modes = 0;
   for (const ModeState& state : point.modes)
     modes = std::max(modes, static_cast<std::size_t>(state.mode) + 1);
-  std::size_t functions = 0;
+  self.tables.grow_modes(modes);
   if (point.step != nullptr) {
+    std::size_t functions = 0;
     for (const DenseBlock& block : point.step->blocks)
       functions += static_cast<std::size_t>(block.left.rows());
-  }
-  if (modes > self.tables.modes() || functions > self.tables.functions()) {
-    self.write_rows();
-    self.tables.grow_modes(modes);
     self.tables.grow_functions(functions);
+    self.append_step(*point.step);
   }
-  if (point.step != nullptr) self.append_step(*point.step);
-  self.append_modes(point);
+  self.append_point(point);
   self.motions.append(point);
   if (!self.wanted_names.empty()) {
     self.motions.give_names(self.wanted_names, point, self.scene_path + ": [modes] names");
     self.wanted_names.clear();
   }
-  LociRows& rows = self.rows;
-  rows.parameter.push_back(point.node.p);
-  rows.growing_unfollowed.push_back(point.growing_unfollowed);
-  const auto x = point.node.path.x.col(0);
-  const auto lambda = point.node.path.lambda.col(0);
-  rows.equilibrium.insert(rows.equilibrium.end(), x.begin(), x.end());
-  const auto m = lambda.begin() + self.model.n_constraints();
-  rows.multiplier.insert(rows.multiplier.end(), lambda.begin(), m);
-  rows.trimmed.resize(static_cast<std::size_t>(self.model.n_trims()));
-  for (std::size_t i = 0; i < rows.trimmed.size(); ++i)
-    rows.trimmed[i].push_back(m[static_cast<std::ptrdiff_t>(i)]);
-  if (rows.points() >= most_rows) self.write_rows();
-}
-
-void LociWriter::Implementation::write_rows() {
-  const Hdf5Turn turn;
-  tables.append(rows);
-  rows = {};
+  if (self.tables.pending() >= most_rows) self.tables.write_rows();
 }
 
 /// Writes all that is new since the last save to the file in memory.
 void LociWriter::Implementation::update(const TraceResult& result, const char* status) {
-  write_rows();
+  tables.write_rows();
   Hdf5Writer& file = tables.file();
   write_events(file, result.events, events);
   events = result.events.size();
@@ -311,10 +279,9 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
   const Hdf5Turn turn;
   const auto begin = Clock::now();
   update(checkpoint.so_far(), status);
-  ArchiveWriter archive;
-  archive(last_shapes, motions, events);
   std::string image = tables.file().image();
-  const std::string state = saved_state(image, checkpoint.save(), archive.bytes());
+  const std::string state =
+      marked_data(state_mark, image, packed(checkpoint.save(), packed(last_shapes, motions, events)));
   save(std::move(image), state);
   is_saved = true;
   last_saved = Clock::now();

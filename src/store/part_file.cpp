@@ -1,8 +1,6 @@
 #include "eigentrail/store/part_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <filesystem>
 
 #include "core/archive.hpp"
@@ -12,17 +10,10 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "store/differences.hpp"
+#include "store/marked_data.hpp"
 
 namespace eigentrail {
 namespace {
-
-/// The last bytes of a part.
-struct PartMark {
-  static constexpr std::string_view text = "eigentrail-piece";
-  std::array<char, text.size()> name = {};
-  std::uint64_t size = 0;   ///< of the pieces, which precede the mark, in bytes
-  std::uint64_t check = 0;  ///< fingerprint of all bytes before the mark
-};
 
 /// Adds name and contents of the files that a value of a scene names by a key `file`.
 void add_files(const Table& table, const std::filesystem::path& folder, std::string& found) {
@@ -108,31 +99,25 @@ void write_part(const PartFile& file, Existing existing) {
   const std::string pieces = packed(file.run.command, file.run.scene_path, file.run.settings,
                                     static_cast<std::uint64_t>(file.run.n_pieces), file.part.number,
                                     file.part.count, file.pieces, blas_kernel());
-  const std::string bytes = head.image() + pieces;
-  PartMark mark{{}, pieces.size(), fingerprint(bytes)};
-  std::copy(PartMark::text.begin(), PartMark::text.end(), mark.name.begin());
-  write_durably(file.path, {bytes, {reinterpret_cast<const char*>(&mark), sizeof mark}}, existing);
+  const std::string image = head.image(), marked = marked_data(pieces_mark, image, pieces);
+  write_durably(file.path, {image, marked}, existing);
 }
 
 PartFile read_part_file(const std::string& path) {
   const std::string bytes = bytes_of_file(path);
   const InputError damaged(path + ": is damaged or incomplete; repeat this part");
-  PartMark mark;
-  const bool marked = bytes.size() >= sizeof mark;
-  if (marked) std::memcpy(&mark, bytes.data() + bytes.size() - sizeof mark, sizeof mark);
-  if (!marked || std::string_view(mark.name.data(), mark.name.size()) != PartMark::text) {
+  const auto marked = take_apart(pieces_mark, bytes, damaged);
+  if (!marked) {
     if (may_be_replaced(path, part_format)) throw damaged;
     throw InputError(path +
                      ": is no part of a run, or damaged; expected a file that a command wrote with --part");
   }
-  const std::string_view before(bytes.data(), bytes.size() - sizeof mark);
-  if (mark.size > before.size() || fingerprint(before) != mark.check) throw damaged;
   // The first bytes of the archive are the same in all versions; the version is checked before the rest.
   PartFile file;
   file.path = path;
   std::uint64_t n_pieces = 0;
   try {
-    ArchiveReader archive(before.substr(before.size() - mark.size));
+    ArchiveReader archive(marked->data);
     archive(file.run.command, file.run.scene_path, file.run.settings);
     for (const auto& [label, text] : file.run.settings) {
       if (label == "version" && text != version())
