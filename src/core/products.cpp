@@ -23,17 +23,23 @@ void zgemm_(const char* form_A, const char* form_B, const int* m, const int* n, 
 namespace eigentrail {
 namespace {
 
-Matrix dgemm(char form, const Matrix& A, const Matrix& B) {
+/// A B (form 'N'), A^T B (form 'T') or A^H B (form 'C'). `multiply`: dgemm_ or zgemm_.
+template <class Dense, class Gemm>
+Dense full_product(Gemm multiply, char form, const Dense& A, const Dense& B) {
   const auto rows = static_cast<int>(form == 'N' ? A.rows() : A.cols());
   const auto columns = static_cast<int>(B.cols());
   const auto inner = static_cast<int>(B.rows());
-  if (rows == 0 || columns == 0 || inner == 0) return Matrix::Zero(rows, columns);
+  if (rows == 0 || columns == 0 || inner == 0) return Dense::Zero(rows, columns);
   const auto stride = static_cast<int>(A.rows());
-  const double one = 1.0, zero = 0.0;
-  Matrix C(rows, columns);
-  dgemm_(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, B.data(), &inner, &zero, C.data(),
-         &rows);
+  const typename Dense::Scalar one = 1.0, zero = 0.0;
+  Dense C(rows, columns);
+  multiply(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, B.data(), &inner, &zero, C.data(),
+           &rows);
   return C;
+}
+
+Matrix dgemm(char form, const Matrix& A, const Matrix& B) {
+  return full_product(dgemm_, form, A, B);
 }
 
 ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
@@ -46,19 +52,6 @@ ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
   ComplexVector y(size);
   zgemv_(&form, &rows, &columns, &one, A.data(), &rows, x.data(), &next, &zero, y.data(), &next);
   return y;
-}
-
-ComplexMatrix zgemm(char form, const ComplexMatrix& A, const ComplexMatrix& X) {
-  const auto rows = static_cast<int>(form == 'N' ? A.rows() : A.cols());
-  const auto columns = static_cast<int>(X.cols());
-  const auto inner = static_cast<int>(X.rows());
-  if (rows == 0 || columns == 0 || inner == 0) return ComplexMatrix::Zero(rows, columns);
-  const auto stride = static_cast<int>(A.rows());
-  const Complex one = 1.0, zero = 0.0;
-  ComplexMatrix Y(rows, columns);
-  zgemm_(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, X.data(), &inner, &zero, Y.data(),
-         &rows);
-  return Y;
 }
 
 /// A X (form 'N') or A^T X (form 'T') for few complex columns X. Real and imaginary parts alternate in
@@ -198,11 +191,11 @@ ComplexVector adjoint_product(const ComplexMatrix& A, const ComplexVector& x) {
 }
 
 ComplexMatrix product(const ComplexMatrix& A, const ComplexMatrix& X) {
-  return zgemm('N', A, X);
+  return full_product(zgemm_, 'N', A, X);
 }
 
 ComplexMatrix adjoint_product(const ComplexMatrix& A, const ComplexMatrix& X) {
-  return zgemm('C', A, X);
+  return full_product(zgemm_, 'C', A, X);
 }
 
 Matrix congruence(const Matrix& left, const Matrix& B, const Matrix& right) {

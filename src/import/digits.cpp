@@ -35,6 +35,16 @@ int least_digits_of(double x) {
   return 0;
 }
 
+/// Empty for all.
+std::optional<int> digits_asked_for(const std::string& text) {
+  if (text == "all") return std::nullopt;
+  const auto digits = whole_number_of(text);
+  if (!digits || *digits < 1 || *digits > 17)
+    throw InputError("--digits: expected a whole number from 1 to 17, or all; found '" + printable(text) +
+                     "'");
+  return static_cast<int>(*digits);
+}
+
 }  // namespace
 
 std::optional<int> digits_of(const SampledData& data) {
@@ -59,24 +69,18 @@ std::optional<int> digits_of(const SampledData& data) {
   return digits >= fewest_digits && clear ? std::optional(digits) : std::nullopt;
 }
 
-DigitsOption digits_option(const std::map<std::string, std::string>& options) {
-  const auto found = options.find("digits");
-  if (found == options.end()) return {};
-  if (found->second == "all") return {true};
-  const auto digits = whole_number_of(found->second);
-  if (!digits || *digits < 1 || *digits > 17)
-    throw InputError("--digits: expected a whole number from 1 to 17, or all; found '" +
-                     printable(found->second) + "'");
-  return {true, static_cast<int>(*digits)};
+std::string note_digits(SampledData& data, const std::map<std::string, std::string>& options,
+                        std::optional<int> known) {
+  const auto asked = options.find("digits");
+  const bool is_given = asked != options.end();
+  data.digits = is_given ? digits_asked_for(asked->second) : known ? known : digits_of(data);
+  if (!data.digits) return "";
+  return std::to_string(*data.digits) + " significant digits" +
+         (is_given ? "" : ", as most entries show; --digits all if they are exact");
 }
 
 std::pair<const std::string, std::string> digits_help() {
   return {"digits", "significant digits of the entries, or all; default: as many as they show"};
-}
-
-std::string digits_text(int digits, bool given) {
-  return std::to_string(digits) + " significant digits" +
-         (given ? "" : ", as most entries show; --digits all if they are exact");
 }
 
 }  // namespace eigentrail

@@ -14,16 +14,12 @@ namespace eigentrail {
 /// too few entries to tell. Decimal numbers with that many digits do not come up by chance.
 std::optional<int> digits_of(const SampledData& data);
 
-/// What the option --digits says: a number from 1 to 17, or all (empty).
-struct DigitsOption {
-  bool given = false;
-  std::optional<int> digits = {};
-};
-/// Throws InputError.
-DigitsOption digits_option(const std::map<std::string, std::string>& options);
+/// Notes in samples the digits that the option --digits says, a number from 1 to 17 or all; without it
+/// `known` ones, or else as many as the entries show. Returns a sentence for the user; empty if the entries
+/// count as exact. Throws InputError.
+std::string note_digits(SampledData& data, const std::map<std::string, std::string>& options,
+                        std::optional<int> known = std::nullopt);
 /// Name and help of the option.
 std::pair<const std::string, std::string> digits_help();
-/// A sentence for the user. `given`: by the option.
-std::string digits_text(int digits, bool given);
 
 }  // namespace eigentrail

@@ -97,10 +97,6 @@ FileTable parse_file_table(std::string_view text, const std::string& path) {
   return TableOfFiles(text, path).read();
 }
 
-FileTable read_file_table(const std::string& path) {
-  return parse_file_table(read_text_file(path), path);
-}
-
 bool is_file_table(const std::string& path) {
   return equal_words(std::filesystem::path(path).extension().string(), ".csv");
 }

@@ -23,8 +23,6 @@ struct FileTable {
 
 /// Reads the text of a table. Throws InputError that names file and line.
 FileTable parse_file_table(std::string_view text, const std::string& path);
-/// The same from a file.
-FileTable read_file_table(const std::string& path);
 
 /// Whether the name of a file ends like that of a table: .csv.
 bool is_file_table(const std::string& path);

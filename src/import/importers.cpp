@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "import/formats.hpp"
+#include "import/text_lines.hpp"
 
 namespace eigentrail {
 
@@ -22,11 +22,6 @@ const std::map<std::string, std::string> other_names{
     {"npz", "numpy"},        {"npy", "numpy"},     {"python", "numpy"},      {"mat", "matlab"},
     {"lin", "openfast"},     {"fast", "openfast"}, {"mtx", "matrix-market"}, {"csv", "matrix-market"},
     {"mm", "matrix-market"}, {"op4", "nastran"},   {"pch", "nastran"}};
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 }  // namespace
 

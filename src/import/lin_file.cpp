@@ -144,8 +144,4 @@ LinFile parse_lin_file(std::string_view text, const std::string& path) {
   return LinReader(text, path).read();
 }
 
-LinFile read_lin_file(const std::string& path) {
-  return parse_lin_file(read_text_file(path), path);
-}
-
 }  // namespace eigentrail

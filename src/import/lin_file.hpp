@@ -33,7 +33,4 @@ struct LinFile {
 /// Reads the text of a file. Throws InputError that names file and line.
 LinFile parse_lin_file(std::string_view text, const std::string& path);
 
-/// The same from a file.
-LinFile read_lin_file(const std::string& path);
-
 }  // namespace eigentrail

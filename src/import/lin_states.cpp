@@ -6,13 +6,10 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "import/text_lines.hpp"
 #include "model/multiblade/harmonics.hpp"
 
 namespace eigentrail {
-
-std::string count_of(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 LinStates::LinStates(const std::vector<LinFile>& files) : files_(files) {
   for (const LinQuantity& state : files[0].states) parsed_.push_back(openfast_state(state.description));

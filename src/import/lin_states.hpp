@@ -12,9 +12,6 @@
 
 namespace eigentrail {
 
-/// "1 file", "3 files".
-std::string count_of(std::size_t count, const std::string& what);
-
 /// The states of all files, in the order of the first one. Keeps a reference to the files.
 class LinStates {
  public:

@@ -208,8 +208,4 @@ SystemMatrix parse_market_file(std::string_view text, const std::string& path) {
   return MarketReader(text, path).read();
 }
 
-SystemMatrix read_market_file(const std::string& path) {
-  return parse_market_file(read_text_file(path), path);
-}
-
 }  // namespace eigentrail

@@ -15,7 +15,4 @@ namespace eigentrail {
 /// which is symmetric if it is real. Throws InputError that names file and line.
 SystemMatrix parse_market_file(std::string_view text, const std::string& path);
 
-/// The same from a file.
-SystemMatrix read_market_file(const std::string& path);
-
 }  // namespace eigentrail

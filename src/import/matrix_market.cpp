@@ -13,6 +13,7 @@
 #include "import/file_table.hpp"
 #include "import/formats.hpp"
 #include "import/market_file.hpp"
+#include "import/samples.hpp"
 #include "import/text_lines.hpp"
 
 namespace eigentrail {
@@ -50,7 +51,7 @@ class MarketImport {
     if (table && request_.files.size() > 1)
       throw InputError("matrix-market: expected one table (.csv), or files of matrices (.mtx)");
     if (table) {
-      read_table(read_file_table(request_.files[0]));
+      read_table(parse_file_table(read_text_file(request_.files[0]), request_.files[0]));
     } else {
       read_powers();
     }
@@ -58,11 +59,6 @@ class MarketImport {
   }
 
  private:
-  std::string option(const std::string& name, const std::string& otherwise) const {
-    const auto found = request_.options.find(name);
-    return found == request_.options.end() ? otherwise : found->second;
-  }
-
   double number_option(const std::string& name, double otherwise) const {
     const auto found = request_.options.find(name);
     if (found == request_.options.end()) return otherwise;
@@ -134,7 +130,7 @@ class MarketImport {
           throw InputError(file + ": is power " + std::to_string(one.power) + " of " + one.letter +
                            ", and so is " + other.file);
       }
-      one.matrix = read_market_file(file);
+      one.matrix = parse_market_file(read_text_file(file), file);
       if (one.matrix.is_sparse() && one.matrix.cols() < least_sparse_rows) one.matrix = one.matrix.dense();
       all.push_back(std::move(one));
     }
@@ -183,7 +179,7 @@ class MarketImport {
                        "K1.mtx");
     if (highest == 0)
       throw InputError("matrix-market: no matrix has a power of the parameter; expected one such as K1.mtx");
-    result_.parameter = parameter("p");
+    result_.parameter = parameter_option(request_, "p");
     PolynomialData& family = result_.family.emplace();
     for (const auto& [letter, list] : coefficients) {
       std::string powers;
@@ -219,7 +215,7 @@ class MarketImport {
   void finish_family(PolynomialData& family, Eigen::Index n) {
     result_.understood.push_back(std::to_string(n) + " states");
     family.state_names = state_names(n);
-    family.parameter_unit = option("unit", "");
+    family.parameter_unit = request_.option("unit");
     family.from = number_option("from", 0.0);
     family.to = number_option("to", 1.0);
     if (family.from == family.to) throw InputError("--to: equals --from; expected a range");
@@ -229,21 +225,12 @@ class MarketImport {
                                  "; --from and --to give another");
   }
 
-  std::string parameter(const std::string& otherwise) const {
-    const std::string name = option("parameter", otherwise);
-    if (!is_identifier(name) || name.size() > limits::key_length)
-      throw InputError(
-          "--parameter: expected a name, a letter and then letters, digits or underscores; found '" +
-          printable(name) + "'");
-    return name;
-  }
-
   void one_sample(const std::vector<Coefficient>& all) {
     refuse_options({"from", "to"}, "the matrices do not depend on a parameter");
     SampledData& data = result_.samples;
-    result_.parameter = parameter("p");
+    result_.parameter = parameter_option(request_, "p");
     data.values = {0.0};
-    data.parameter_unit = option("unit", "");
+    data.parameter_unit = request_.option("unit");
     for (const Coefficient& one : all) {
       for (const SampledMatrix& named : sampled_matrices()) {
         if (one.letter == named.name[0]) (data.*named.samples).push_back(one.matrix.dense());
@@ -252,7 +239,7 @@ class MarketImport {
     result_.understood.push_back("one sample, " + size_text(all.front().matrix) +
                                  ", and no value of a parameter");
     data.state_names = state_names(data.size());
-    finish_samples(request_.files[0]);
+    finish_samples(result_, request_, request_.files[0]);
   }
 
   /// What the names of the files have in common, or their folder.
@@ -282,7 +269,7 @@ class MarketImport {
 
   /// Samples are interpolated entry by entry, as dense matrices.
   static Matrix dense_sample(const std::string& file) {
-    const SystemMatrix matrix = read_market_file(file);
+    const SystemMatrix matrix = parse_market_file(read_text_file(file), file);
     if (std::max(matrix.rows(), matrix.cols()) > limits::matrix_rows)
       throw InputError(file + ": the matrix is " + size_text(matrix) + "; samples have at most " +
                        std::to_string(limits::matrix_rows) +
@@ -295,9 +282,9 @@ class MarketImport {
     const std::vector<std::vector<Matrix>*> lists = columns_of(table);
     SampledData& data = result_.samples;
     result_.title = std::filesystem::path(table.path).stem().string();
-    result_.parameter = parameter(table.parameter);
+    result_.parameter = parameter_option(request_, table.parameter);
     data.values = table.values;
-    data.parameter_unit = option("unit", table.unit);
+    data.parameter_unit = request_.option("unit", table.unit);
     for (std::size_t row = 0; row < table.values.size(); ++row) {
       for (std::size_t i = 0; i < lists.size(); ++i) {
         const std::string& file = table.files[row][i];
@@ -312,24 +299,10 @@ class MarketImport {
         lists[i]->push_back(std::move(matrix));
       }
     }
-    result_.understood.push_back(std::to_string(data.count()) +
-                                 (data.count() == 1 ? " sample, " : " samples, ") +
-                                 std::to_string(data.size()) + " states");
+    result_.understood.push_back(count_of(data.count(), "sample") + ", " + std::to_string(data.size()) +
+                                 " states");
     data.state_names = state_names(data.size());
-    finish_samples(table.path);
-  }
-
-  void finish_samples(const std::string& file) {
-    SampledData& data = result_.samples;
-    const DigitsOption digits = digits_option(request_.options);
-    data.digits = digits.given ? digits.digits : digits_of(data);
-    if (data.digits) result_.understood.push_back(digits_text(*data.digits, digits.given));
-    data.source = result_.title + ", " + std::to_string(data.count()) + " samples";
-    try {
-      check(data);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(file + ": " + error.what());
-    }
+    finish_samples(result_, request_, table.path);
   }
 
   const ImportRequest& request_;

@@ -59,8 +59,8 @@ class ArrayReader {
     read_parameter();
     repeat_constants();
     read_states();
-    read_digits();
     SampledData& data = result_.samples;
+    const std::string digits = note_digits(data, user_);
     data.source = result_.title + ", " + std::to_string(data.count()) + " samples";
     try {
       check(data);
@@ -70,6 +70,7 @@ class ArrayReader {
     }
     read_gyroscopic();
     describe();
+    if (!digits.empty() && !result_.family) result_.understood.push_back(digits);
     list_others();
     return std::move(result_);
   }
@@ -384,11 +385,6 @@ class ArrayReader {
     return result;
   }
 
-  void read_digits() {
-    const DigitsOption given = digits_option(user_);
-    result_.samples.digits = given.given ? given.digits : digits_of(result_.samples);
-  }
-
   void describe() {
     const SampledData& data = result_.samples;
     std::string matrices;
@@ -399,17 +395,14 @@ class ArrayReader {
     const std::string size = std::to_string(data.size()) + " x " + std::to_string(data.size());
     const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
     if (samples_ > 1 || *least != 0.0)
-      result_.understood.push_back(std::to_string(samples_) +
-                                   (samples_ == 1 ? " sample of " : " samples of ") + matrices + ", " + size +
-                                   ", at " + result_.parameter + " = " + exact_text(*least) +
+      result_.understood.push_back(count_of(samples_, "sample") + " of " + matrices + ", " + size + ", at " +
+                                   result_.parameter + " = " + exact_text(*least) +
                                    (samples_ > 1 ? " to " + exact_text(*most) : "") +
                                    (data.parameter_unit.empty() ? "" : " " + data.parameter_unit));
     else
       result_.understood.push_back(matrices + ", " + size);
     if (!data.state_names.empty())
       result_.understood.push_back(std::to_string(data.size()) + " names of states");
-    if (data.digits && !result_.family)
-      result_.understood.push_back(digits_text(*data.digits, option("digits").has_value()));
   }
 
   const std::vector<NamedArray>& arrays_;

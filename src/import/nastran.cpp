@@ -16,6 +16,7 @@
 #include "import/file_table.hpp"
 #include "import/formats.hpp"
 #include "import/op4.hpp"
+#include "import/samples.hpp"
 #include "import/text_lines.hpp"
 
 namespace eigentrail {
@@ -62,11 +63,6 @@ class NastranImport {
   }
 
  private:
-  std::string option(const std::string& name, const std::string& otherwise = "") const {
-    const auto found = request_.options.find(name);
-    return found == request_.options.end() ? otherwise : found->second;
-  }
-
   std::vector<PointFiles> operating_points() {
     const std::vector<std::string>& files = request_.files;
     std::string parameter = "p", unit;
@@ -74,7 +70,7 @@ class NastranImport {
     if (std::any_of(files.begin(), files.end(), is_file_table)) {
       if (files.size() > 1 || request_.options.contains("values"))
         throw InputError("nastran: expected one table (.csv), or files of matrices and --values");
-      const FileTable table = read_file_table(files[0]);
+      const FileTable table = parse_file_table(read_text_file(files[0]), files[0]);
       parameter = table.parameter;
       unit = table.unit;
       for (std::size_t i = 0; i < table.values.size(); ++i)
@@ -89,18 +85,14 @@ class NastranImport {
       points.push_back({files, 0.0});
     }
     result_.title = std::filesystem::path(files[0]).stem().string();
-    result_.parameter = option("parameter", parameter);
-    if (!is_identifier(result_.parameter) || result_.parameter.size() > limits::key_length)
-      throw InputError(
-          "--parameter: expected a name, a letter and then letters, digits or underscores; found '" +
-          printable(result_.parameter) + "'");
-    result_.samples.parameter_unit = option("unit", unit);
+    result_.parameter = parameter_option(request_, parameter);
+    result_.samples.parameter_unit = request_.option("unit", unit);
     return points;
   }
 
   std::vector<double> listed_values() const {
     std::vector<double> values;
-    const std::string text = option("values");
+    const std::string text = request_.option("values");
     std::string_view rest = text;
     while (true) {
       const std::size_t comma = rest.find(',');
@@ -167,7 +159,7 @@ class NastranImport {
                               : "; name it with --" + std::string(role.option)));
       result = &one;
     }
-    const std::string asked = option(role.option);
+    const std::string asked = request_.option(role.option);
     if (result == nullptr && !asked.empty() && asked != "none")
       throw InputError(all.front().file + ": --" + role.option + ": no matrix '" + printable(asked) + "'; " +
                        names_of(all));
@@ -315,27 +307,14 @@ class NastranImport {
   }
 
   void finish(const std::vector<PointFiles>& points) {
-    SampledData& data = result_.samples;
-    result_.understood.insert(result_.understood.begin(),
-                              std::to_string(points.size()) +
-                                  (points.size() == 1 ? " operating point, " : " operating points, ") +
-                                  std::to_string(data.size()) + " states");
-    const DigitsOption digits = digits_option(request_.options);
+    result_.understood.insert(result_.understood.begin(), count_of(points.size(), "operating point") + ", " +
+                                                              std::to_string(result_.samples.size()) +
+                                                              " states");
     // What a program has printed has many digits; few of them are what somebody has typed.
-    const bool printed = digits_ >= digits_of_single && digits_ < digits_of_double;
-    if (digits.given)
-      data.digits = digits.digits;
-    else if (single_ || printed)
-      data.digits = single_ ? digits_of_single : digits_;
-    else
-      data.digits = digits_of(data);
-    if (data.digits) result_.understood.push_back(digits_text(*data.digits, digits.given));
-    data.source = result_.title + ", " + std::to_string(data.count()) + " samples";
-    try {
-      check(data);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(first_file_ + ": " + error.what());
-    }
+    std::optional<int> known;
+    if (digits_ >= digits_of_single && digits_ < digits_of_double) known = digits_;
+    if (single_) known = digits_of_single;
+    finish_samples(result_, request_, first_file_, known);
   }
 
   const ImportRequest& request_;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -14,6 +13,8 @@
 #include "import/lin_states.hpp"
 #include "import/multiblade.hpp"
 #include "import/openfast_states.hpp"
+#include "import/samples.hpp"
+#include "import/text_lines.hpp"
 
 namespace eigentrail {
 namespace {
@@ -24,11 +25,6 @@ constexpr double same_operating_point = 0.01;
 constexpr double to_rpm = 9.549296585513721;  // 30 / pi
 /// What is left of the dependence on the azimuth is worth a warning from here.
 constexpr double large_periodicity = 0.05;
-
-std::string in_lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::string rounded_text(double x) {
   constexpr double digits = 1e6;
@@ -57,7 +53,8 @@ struct Parameter {
 class OpenFastImport {
  public:
   explicit OpenFastImport(const ImportRequest& request) : request_(request) {
-    for (const std::string& path : request.files) files_.push_back(read_lin_file(path));
+    for (const std::string& path : request.files)
+      files_.push_back(parse_lin_file(read_text_file(path), path));
   }
 
   Imported read() {
@@ -78,11 +75,7 @@ class OpenFastImport {
       periodicity = std::max(periodicity, add_average(point, states, data));
     }
     states.describe(data);
-    try {
-      check(data);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(files_[0].path + ": " + error.what());
-    }
+    require_fit(data, files_[0].path);
     result.warnings = states.warnings();
     describe(states, parameter, points, periodicity, result);
     return result;
@@ -117,8 +110,7 @@ class OpenFastImport {
       std::vector<const LinQuantity*> found;
       for (const std::vector<LinQuantity>* table : {&file.states, &file.operating_values}) {
         for (const LinQuantity& one : *table) {
-          if (in_lower_case(one.description).find(in_lower_case(text)) != std::string::npos)
-            found.push_back(&one);
+          if (lower_case(one.description).find(lower_case(text)) != std::string::npos) found.push_back(&one);
         }
       }
       if (found.empty())

@@ -35,6 +35,10 @@ std::string_view trimmed(std::string_view text);
 /// Whether both are equal but for upper and lower case.
 bool equal_words(std::string_view a, std::string_view b);
 
+std::string lower_case(std::string text);
+/// "1 file", "3 files".
+std::string count_of(std::size_t count, const std::string& what);
+
 /// A decimal number with exponent E, D or, as Fortran prints long exponents, with a sign only (1.5-101).
 /// Empty if the word is anything else.
 std::optional<double> number_of(std::string_view word);

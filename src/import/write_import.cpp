@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/hdf5_writer.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
@@ -13,33 +12,36 @@
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "store/labelled_datasets.hpp"
 
 namespace eigentrail {
 namespace {
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 const char* frame_name(StateFrame frame) {
   return frame == StateFrame::fixed ? "fixed" : "rotating";
 }
 
-void write_list(Hdf5Writer& file, const std::string& name, ElementType type, const auto& list,
-                bool even_if_empty = false) {
-  if (list.empty() && !even_if_empty) return;
-  file.create_dataset({name, type, {list.size()}, false, {}});
-  if (!list.empty()) file.write_rows(name, 0, list);
+template <class Element>
+void write_array(Hdf5Writer& file, const std::string& name, const Shape& shape,
+                 const std::vector<Element>& elements) {
+  file.create_dataset({name, element_type<Element>(), shape, false, {}});
+  if (!elements.empty()) file.write_rows(name, 0, elements);
+}
+
+/// Writes a list unless it is empty.
+void write_list(Hdf5Writer& file, const std::string& name, const auto& list) {
+  if (!list.empty()) write_array(file, name, {list.size()}, list);
 }
 
 void write_matrices(Hdf5Writer& file, const std::string& name, const std::vector<Matrix>& samples) {
   if (samples.empty()) return;
   std::vector<double> rows;
   for (const Matrix& sample : samples) {
-    const RowMajor ordered = sample;
-    rows.insert(rows.end(), ordered.data(), ordered.data() + ordered.size());
+    const std::vector<double> ordered = row_major(sample);
+    rows.insert(rows.end(), ordered.begin(), ordered.end());
   }
   const auto n = static_cast<std::uint64_t>(samples.front().rows());
-  file.create_dataset({name, ElementType::real, {samples.size(), n, n}, false, {}});
-  file.write_rows(name, 0, rows);
+  write_array(file, name, {samples.size(), n, n}, rows);
 }
 
 std::string samples_file(const SampledData& data) {
@@ -52,13 +54,13 @@ std::string samples_file(const SampledData& data) {
   file.write_rows("parameter", 0, data.values);
   for (const SampledMatrix& named : sampled_matrices()) write_matrices(file, named.name, data.*named.samples);
   write_matrices(file, "A_error", data.A_error);
-  write_list(file, "state_names", ElementType::text, data.state_names);
-  write_list(file, "state_units", ElementType::text, data.state_units);
-  write_list(file, "derivative_order", ElementType::integer,
+  write_list(file, "state_names", data.state_names);
+  write_list(file, "state_units", data.state_units);
+  write_list(file, "derivative_order",
              std::vector<std::int64_t>(data.derivative_order.begin(), data.derivative_order.end()));
   std::vector<std::string> frames;
   for (const StateFrame frame : data.state_frames) frames.emplace_back(frame_name(frame));
-  write_list(file, "frame", ElementType::text, frames);
+  write_list(file, "frame", frames);
   if (data.digits) file.set_attribute("digits", static_cast<std::int64_t>(*data.digits));
   if (!data.source.empty()) file.set_attribute("source", data.source);
   return file.image();
@@ -121,11 +123,11 @@ void check(const PolynomialData& family) {
 void write_sparse(Hdf5Writer& file, const std::string& name, const SparseMatrix& matrix) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = matrix;
   const auto entries = static_cast<std::size_t>(rows.nonZeros());
-  write_list(file, name + "/data", ElementType::real,
-             std::vector<double>(rows.valuePtr(), rows.valuePtr() + entries), true);
-  write_list(file, name + "/indices", ElementType::integer,
-             std::vector<std::int64_t>(rows.innerIndexPtr(), rows.innerIndexPtr() + entries), true);
-  write_list(file, name + "/indptr", ElementType::integer,
+  write_array(file, name + "/data", {entries},
+              std::vector<double>(rows.valuePtr(), rows.valuePtr() + entries));
+  write_array(file, name + "/indices", {entries},
+              std::vector<std::int64_t>(rows.innerIndexPtr(), rows.innerIndexPtr() + entries));
+  write_list(file, name + "/indptr",
              std::vector<std::int64_t>(rows.outerIndexPtr(), rows.outerIndexPtr() + rows.rows() + 1));
 }
 
@@ -141,13 +143,12 @@ std::string family_file(const PolynomialData& family) {
         write_sparse(file, dataset, coefficient.sparse());
         continue;
       }
-      const RowMajor one = coefficient.dense();
-      const Shape shape{static_cast<std::uint64_t>(one.rows()), static_cast<std::uint64_t>(one.cols())};
-      file.create_dataset({dataset, ElementType::real, shape, false, {}});
-      file.write_rows(dataset, 0, std::vector<double>(one.data(), one.data() + one.size()));
+      const Shape shape{static_cast<std::uint64_t>(coefficient.rows()),
+                        static_cast<std::uint64_t>(coefficient.cols())};
+      write_array(file, dataset, shape, row_major(coefficient.dense()));
     }
   }
-  write_list(file, "state_names", ElementType::text, family.state_names);
+  write_list(file, "state_names", family.state_names);
   return file.image();
 }
 

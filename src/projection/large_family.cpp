@@ -9,9 +9,10 @@ namespace {
 /// A family of sparse matrices at rest: its projection is a family of the same factors.
 class LargeFamily final : public LargeModel {
  public:
-  explicit LargeFamily(const SparseFamily& family) : family_(family), pencils_(family) {}
+  explicit LargeFamily(std::shared_ptr<const SparseFamily> family)
+      : family_(std::move(family)), pencils_(*family_) {}
 
-  const Model& model() const override { return family_; }
+  const Model& model() const override { return *family_; }
 
   std::optional<LargePlace> place_at(double p, const Vector& parameters) override {
     return LargePlace{p, parameters, {}, {}};
@@ -43,12 +44,6 @@ class LargeFamily final : public LargeModel {
     }
     return model_of(std::move(pencil), product(basis, spaces.right), product(basis, spaces.left));
   }
-  Matrix take_basis(Model& reduced) const override {
-    return dynamic_cast<ProjectedFamily&>(reduced).take_basis();
-  }
-  void settle(Model& reduced, Projection outcome) const override {
-    dynamic_cast<ProjectedFamily&>(reduced).settle(std::move(outcome));
-  }
 
   SmallPencil small(const Model& reduced, const TracePoint& point) const override {
     return small_at(reduced, point.node.path.parameters.col(0));
@@ -56,10 +51,6 @@ class LargeFamily final : public LargeModel {
   SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil&,
                     const Matrix&) const override {
     return small_at(reduced, place.parameters);
-  }
-  bool keeps_small() const override { return false; }
-  SmallPencil small_of(const Model& reduced, const ProjectedPlace& place) const override {
-    return small_at(reduced, place.at.parameters);
   }
   ComplexVector coordinates(const TracePoint&, const ComplexVector& shape) const override { return shape; }
 
@@ -73,9 +64,9 @@ class LargeFamily final : public LargeModel {
  private:
   std::unique_ptr<ProjectedFamily> model_of(AffinePencil<Matrix> pencil, Matrix basis,
                                             Matrix left_basis) const {
-    ModelDescription description = family_.description();
+    ModelDescription description = family_->description();
     Projection projection;
-    projection.freedoms = family_.n_coordinates();
+    projection.freedoms = family_->n_coordinates();
     projection.names = std::move(description.coordinate_names);
     projection.basis = std::move(basis);
     projection.left_basis = std::move(left_basis);
@@ -92,14 +83,16 @@ class LargeFamily final : public LargeModel {
     return {at.M.front().matrix, at.C.front().matrix, at.K.front().matrix};
   }
 
-  const SparseFamily& family_;
+  std::shared_ptr<const SparseFamily> family_;
   FamilyPencils pencils_;
 };
 
 }  // namespace
 
-std::unique_ptr<LargeModel> large_model_of(const SparseFamily& family) {
-  return std::make_unique<LargeFamily>(family);
+std::unique_ptr<LargeModel> large_model_of(std::shared_ptr<const Model> model, const TraceOptions& trace) {
+  if (auto family = std::dynamic_pointer_cast<const SparseFamily>(model))
+    return std::make_unique<LargeFamily>(std::move(family));
+  return large_scene_of(std::move(model), trace);
 }
 
 }  // namespace eigentrail

@@ -18,7 +18,7 @@ struct LargePlace {
 /// A place on the path of a projected model, with its followed modes in projected coordinates.
 struct ProjectedPlace {
   LargePlace at;
-  SmallPencil small;  ///< only where the model keeps it
+  SmallPencil small;
   std::vector<ProjectedMode> modes;
   bool is_old = false;  ///< `small` and `modes` are of a space that has changed
 };
@@ -62,10 +62,6 @@ class LargeModel {
   virtual std::unique_ptr<Model> on_two_spaces(const Model& reduced, const ProjectionSpace& space,
                                                double accuracy, const Vector& middle,
                                                double frequency) const = 0;
-  /// The basis of a model that `reduced` gave, which is of no use then.
-  virtual Matrix take_basis(Model& reduced) const = 0;
-  /// Notes what is known of the projection in a model that `reduced` gave.
-  virtual void settle(Model& reduced, Projection outcome) const = 0;
 
   /// The projected matrices at a traced point, and the reduced coordinates of one of its shapes.
   virtual SmallPencil small(const Model& reduced, const TracePoint& point) const = 0;
@@ -73,11 +69,6 @@ class LargeModel {
   virtual SmallPencil small(const Model& reduced, const LargePlace& place, const SparsePencil& pencil,
                             const Matrix& basis) const = 0;
   virtual ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const = 0;
-
-  /// Whether places keep their projected matrices, because computing them again costs much.
-  virtual bool keeps_small() const = 0;
-  /// The projected matrices at a place, kept or computed again.
-  virtual SmallPencil small_of(const Model& reduced, const ProjectedPlace& place) const = 0;
 
   /// Bases of the motions of the reduced model at the place of a pencil; they live as long as `reduced` and
   /// the result do. Empty if the motions have turned too far.
@@ -87,7 +78,9 @@ class LargeModel {
 /// The shift for a choice of modes: the middle of those that are wanted, or zero.
 Shift usual_shift(const ModeChoice& choice);
 
-std::unique_ptr<LargeModel> large_model_of(const SparseFamily& family);
-std::unique_ptr<LargeModel> large_model_of(std::shared_ptr<const Model> scene, const TraceOptions& trace);
+/// A sparse family or a scene of bodies as a large model.
+std::unique_ptr<LargeModel> large_model_of(std::shared_ptr<const Model> model, const TraceOptions& trace);
+/// The same for a scene.
+std::unique_ptr<LargeModel> large_scene_of(std::shared_ptr<const Model> scene, const TraceOptions& trace);
 
 }  // namespace eigentrail

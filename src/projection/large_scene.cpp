@@ -106,12 +106,6 @@ class LargeScene final : public LargeModel {
                                        double) const override {
     return nullptr;
   }
-  Matrix take_basis(Model& reduced) const override {
-    return dynamic_cast<ProjectedScene&>(reduced).take_basis();
-  }
-  void settle(Model& reduced, Projection outcome) const override {
-    dynamic_cast<ProjectedScene&>(reduced).settle(std::move(outcome));
-  }
 
   SmallPencil small(const Model&, const TracePoint& point) const override {
     const ReducedPencil& pencil = point.node.pencil;
@@ -121,8 +115,6 @@ class LargeScene final : public LargeModel {
                     const Matrix& basis) const override {
     return {projected(pencil.M, basis), projected(pencil.C, basis), projected(pencil.K, basis)};
   }
-  bool keeps_small() const override { return true; }
-  SmallPencil small_of(const Model&, const ProjectedPlace& place) const override { return place.small; }
   ComplexVector coordinates(const TracePoint& point, const ComplexVector& shape) const override {
     return point.node.basis.T[0].transpose() * shape;
   }
@@ -165,7 +157,7 @@ class LargeScene final : public LargeModel {
 
 }  // namespace
 
-std::unique_ptr<LargeModel> large_model_of(std::shared_ptr<const Model> scene, const TraceOptions& trace) {
+std::unique_ptr<LargeModel> large_scene_of(std::shared_ptr<const Model> scene, const TraceOptions& trace) {
   return std::make_unique<LargeScene>(std::move(scene), trace);
 }
 

@@ -18,11 +18,6 @@ std::shared_ptr<const Model> shared(const Model& model) {
   return {std::shared_ptr<const Model>(), &model};
 }
 
-std::unique_ptr<LargeModel> large_model(const Model& model, const TraceOptions& trace) {
-  if (const auto* family = dynamic_cast<const SparseFamily*>(&model)) return large_model_of(*family);
-  return large_model_of(shared(model), trace);
-}
-
 }  // namespace
 
 struct LargeSpectrum::Implementation {
@@ -54,7 +49,7 @@ struct LargeSpectrum::Implementation {
 
 LargeSpectrum::LargeSpectrum(const Model& model, const TraceOptions& trace, const SparseSolverMaker& solver)
     : implementation_(std::make_unique<Implementation>(Implementation{
-          model, trace, large_model(model, trace),
+          model, trace, large_model_of(shared(model), trace),
           ModeFinder(std::clamp(share_of_tolerance * trace.tolerance, 1e-13, 1e-9), solver)})) {}
 
 LargeSpectrum::~LargeSpectrum() = default;

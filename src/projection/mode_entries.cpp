@@ -61,7 +61,7 @@ struct Others {
   double farthest = 0.0, largest = 0.0;
 };
 
-Others without_followed(const SmallPencil& small, const ProjectedPlace& place, const Shift& shift) {
+Others without_followed(const ProjectedPlace& place, const Shift& shift) {
   constexpr int to_spare = 3;  // so that one more is seldom needed
   const Complex centre = shift.value();
   Others others;
@@ -70,8 +70,8 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, c
     others.farthest = std::max(others.farthest, std::abs(mode.s - centre));
     others.largest = std::max(others.largest, std::abs(mode.s));
   }
-  others.s =
-      eigenvalues_within(others.farthest, small, shift, static_cast<int>(place.modes.size()) + to_spare);
+  others.s = eigenvalues_within(others.farthest, place.small, shift,
+                                static_cast<int>(place.modes.size()) + to_spare);
   for (const ProjectedMode& mode : place.modes) {
     if (!std::isfinite(std::abs(mode.s)) || others.s.empty()) continue;
     others.s.erase(std::min_element(others.s.begin(), others.s.end(), [&](Complex a, Complex b) {
@@ -85,9 +85,8 @@ Others without_followed(const SmallPencil& small, const ProjectedPlace& place, c
 /// them last.
 std::vector<Complex> among_the_followed(const LargeModel& large, const Model& model,
                                         const ProjectedPlace& place, const Shift& shift, double reference) {
-  const SmallPencil small = large.small_of(model, place);
   const Complex centre = shift.value();
-  Others others = without_followed(small, place, shift);
+  Others others = without_followed(place, shift);
   std::erase_if(others.s, [&](Complex s) {
     return std::abs(s - centre) >= others.farthest || std::abs(s) <= rigid * others.largest;
   });
@@ -95,7 +94,7 @@ std::vector<Complex> among_the_followed(const LargeModel& large, const Model& mo
   const SparsePencil pencil = large.pencil(place.at);
   const auto bases = large.bases(model, pencil);
   if (!bases) return {};
-  others.s = exact_ones(small, pencil, *bases, others.s, reference);
+  others.s = exact_ones(place.small, pencil, *bases, others.s, reference);
   std::sort(others.s.begin(), others.s.end(),
             [&](Complex a, Complex b) { return std::abs(a - centre) < std::abs(b - centre); });
   return others.s;

@@ -6,40 +6,24 @@ namespace eigentrail {
 
 ProjectedFamily::ProjectedFamily(ModelDescription description, AffinePencil<Matrix> pencil,
                                  Projection projection)
-    : AffineFamily<Matrix>(std::move(description), std::move(pencil)), projection_(std::move(projection)) {}
+    : AffineFamily<Matrix>(std::move(description), std::move(pencil)), Projected(std::move(projection)) {}
 
-namespace {
-
-void replace_all_but_space(Projection& projection, Projection outcome) {
-  outcome.basis = std::move(projection.basis);
-  outcome.motions = std::move(projection.motions);
-  outcome.freedoms = projection.freedoms;
-  outcome.names = std::move(projection.names);
-  projection = std::move(outcome);
+void Projected::settle(Projection outcome) {
+  outcome.basis = std::move(projection_.basis);
+  outcome.motions = std::move(projection_.motions);
+  outcome.freedoms = projection_.freedoms;
+  outcome.names = std::move(projection_.names);
+  projection_ = std::move(outcome);
 }
 
-}  // namespace
-
-void ProjectedFamily::settle(Projection outcome) {
-  replace_all_but_space(projection_, std::move(outcome));
-}
-
-Matrix ProjectedFamily::take_basis() {
-  return std::move(projection_.basis);
-}
-
-Matrix ProjectedScene::take_basis() {
-  return std::move(projection_.motions->basis);
-}
-
-void ProjectedScene::settle(Projection outcome) {
-  replace_all_but_space(projection_, std::move(outcome));
+Matrix Projected::take_basis() {
+  return std::move(projection_.motions ? projection_.motions->basis : projection_.basis);
 }
 
 ProjectedScene::ProjectedScene(std::shared_ptr<const Model> scene, Projection projection, Path first)
     : Model(scene->description()),
+      Projected(std::move(projection)),
       scene_(std::move(scene)),
-      projection_(std::move(projection)),
       first_(std::move(first)) {}
 
 Vector ProjectedScene::initial_guess(const Vector& parameters) const {
@@ -69,19 +53,13 @@ std::vector<ParameterValues> lines_over(const TraceOptions& trace, const std::st
 
 void project_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
                       const std::vector<ParameterValues>& lines, const ProjectionOptions& options) {
-  if (!is_large(*model, trace)) return;
-  if (const auto* family = dynamic_cast<const SparseFamily*>(model.get()))
-    model = project(*family, trace, lines, options);
-  else
+  if (is_large(*model, trace))
     model = project(std::shared_ptr<const Model>(std::move(model)), trace, lines, options);
 }
 
 void project_at_if_large(std::unique_ptr<Model>& model, const TraceOptions& trace,
                          const std::vector<double>& values, const ProjectionOptions& options) {
-  if (!is_large(*model, trace)) return;
-  if (const auto* family = dynamic_cast<const SparseFamily*>(model.get()))
-    model = project_at(*family, trace, values, options);
-  else
+  if (is_large(*model, trace))
     model = project_at(std::shared_ptr<const Model>(std::move(model)), trace, values, options);
 }
 

@@ -66,7 +66,7 @@ class Projector {
                        "after " + std::to_string(projection_.factorizations) + " factorizations");
       // Exact eigenvalues at the worst place show the true error of the space as it is.
       Sample sample = sample_at(*worst.place);
-      const double error = places_.distance(*model, *worst.place, sample.exact);
+      const double error = places_.distance(*worst.place, sample.exact);
       const Vector parameters = worst.place->at.parameters;
       traces_hold = error <= scout_tolerance;
       if (worst.indicator > 0.0 && error > rounding_of_samples)
@@ -77,10 +77,10 @@ class Projector {
         note_error(error, places_.worst_of_all(*model));
         is_enough = projection_.error <= safety * target_;
       }
-      Worst left = worst_of_visited(*model);
+      Worst left = worst_of_visited();
       if (left.indicator > target_) {
         (void)places_.worst_of_all(*model);  // others may be worse
-        left = worst_of_visited(*model);
+        left = worst_of_visited();
       }
       const bool stuck = left.indicator > target_;
       if (!stuck && !is_enough) {
@@ -210,7 +210,7 @@ class Projector {
     projection_.peak_bytes = finder_.peak_bytes();
     projection_.method = finder_.method();
     projection_.target = target_;
-    large_.settle(*model, std::move(projection_));
+    dynamic_cast<Projected&>(*model).settle(std::move(projection_));
     return model;
   }
 
@@ -264,7 +264,7 @@ class Projector {
   /// Adds the vectors of a sample to the space, which it takes back from the model.
   void add_vectors(Sample& sample, Model& model) {
     complete(sample);
-    space_.take_basis(large_.take_basis(model));
+    space_.take_basis(dynamic_cast<Projected&>(model).take_basis());
     for (const NearestModes& modes : sample.modes) add(modes, sample.p);
   }
 
@@ -320,12 +320,12 @@ class Projector {
 
   /// The largest error that the vectors of a place have left there, though they are in the space; those
   /// that they have reduced to less than half are not counted.
-  Worst worst_of_visited(const Model& model) const {
+  Worst worst_of_visited() const {
     Worst worst;
     for (const Visit& visit : visits_) {
       const ProjectedPlace* place = place_of(visit, places_);
       if (place == nullptr) continue;
-      const double error = places_.distance(model, *place, visit.exact);
+      const double error = places_.distance(*place, visit.exact);
       if (error > worst.indicator && error > 0.5 * visit.error) worst = {place, error};
     }
     return worst;
@@ -353,7 +353,7 @@ class Projector {
     for (const Visit& visit : visits_) {
       const ProjectedPlace* place = place_of(visit, places);
       if (place == nullptr && &visit == &visits_.back()) return false;
-      if (place != nullptr) error = std::max(error, places.distance(model, *place, visit.exact));
+      if (place != nullptr) error = std::max(error, places.distance(*place, visit.exact));
     }
     if (error > target_) return false;
     note_error(error, *worst);
@@ -385,10 +385,6 @@ class Projector {
   int count_ = 0;  ///< modes that are looked for at a place
 };
 
-std::unique_ptr<ProjectedFamily> as_family(std::unique_ptr<Model> model) {
-  return std::unique_ptr<ProjectedFamily>(dynamic_cast<ProjectedFamily*>(model.release()));
-}
-
 }  // namespace
 
 Shift usual_shift(const ModeChoice& choice) {
@@ -398,26 +394,14 @@ Shift usual_shift(const ModeChoice& choice) {
   return {};
 }
 
-std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
-                                         const std::vector<ParameterValues>& lines,
-                                         const ProjectionOptions& options) {
-  return as_family(Projector(*large_model_of(family), trace, lines, options).along_the_lines());
-}
-
-std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
-                                            const std::vector<double>& values,
-                                            const ProjectionOptions& options) {
-  return as_family(Projector(*large_model_of(family), trace, {}, options).at(values));
-}
-
-std::unique_ptr<Model> project(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+std::unique_ptr<Model> project(std::shared_ptr<const Model> model, const TraceOptions& trace,
                                const std::vector<ParameterValues>& lines, const ProjectionOptions& options) {
-  return Projector(*large_model_of(std::move(scene), trace), trace, lines, options).along_the_lines();
+  return Projector(*large_model_of(std::move(model), trace), trace, lines, options).along_the_lines();
 }
 
-std::unique_ptr<Model> project_at(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+std::unique_ptr<Model> project_at(std::shared_ptr<const Model> model, const TraceOptions& trace,
                                   const std::vector<double>& values, const ProjectionOptions& options) {
-  return Projector(*large_model_of(std::move(scene), trace), trace, {}, options).at(values);
+  return Projector(*large_model_of(std::move(model), trace), trace, {}, options).at(values);
 }
 
 }  // namespace eigentrail

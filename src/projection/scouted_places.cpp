@@ -27,7 +27,7 @@ double largest_of(const std::vector<ProjectedMode>& modes) {
 }
 
 /// Replaces the modes of a place by those of another space. False if one is not found there.
-bool renew(ProjectedPlace& place, const SmallPencil& small) {
+bool renew(ProjectedPlace& place, SmallPencil small) {
   const double largest = largest_of(place.modes);
   for (ProjectedMode& mode : place.modes) {
     if (std::abs(mode.s) <= rigid * largest) continue;  // nobody uses its vectors
@@ -35,6 +35,7 @@ bool renew(ProjectedPlace& place, const SmallPencil& small) {
     if (!refined.is_settled) return false;
     mode = std::move(refined.mode);
   }
+  place.small = std::move(small);
   place.is_old = false;
   return true;
 }
@@ -76,14 +77,13 @@ void ScoutedPlaces::scout(const Model& model, const ParameterValues& line) {
     const bool is_close = places_.size() > before && std::abs(p - places_.back().at.p) < close;
     if (is_close && p != trace_.to && !has_meeting(point)) return true;
     const Path& path = point.node.path;
-    const SmallPencil small = large_.small(model, point);
     ProjectedPlace& place = places_.emplace_back();
     place.at = {p, path.parameters.col(0), path.x.col(0), path.lambda.col(0)};
-    if (large_.keeps_small()) place.small = small;
+    place.small = large_.small(model, point);
     for (const ModeState& mode : point.modes) {
       const ComplexVector shape =
           mode.shape.size() > 0 ? large_.coordinates(point, mode.shape) : ComplexVector();
-      place.modes.push_back(refined_mode(small, mode.s, shape).mode);
+      place.modes.push_back(refined_mode(place.small, mode.s, shape).mode);
     }
     return true;
   };
@@ -122,21 +122,23 @@ std::optional<Worst> ScoutedPlaces::find_worst(const Model& model, double enough
   return worst;
 }
 
-Worst ScoutedPlaces::worst_of_all(const Model& model) {
-  Worst worst{&places_.front(), -1.0};
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (!look_at(model, i, worst)) return this->worst(model, false, INFINITY);
-  }
-  return worst;
-}
-
-std::optional<Worst> ScoutedPlaces::correct_for(const Model& model) {
-  forget_modes();
+/// Empty as for find_worst.
+std::optional<Worst> ScoutedPlaces::look_at_all(const Model& model) {
   Worst worst{&places_.front(), -1.0};
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (!look_at(model, i, worst)) return std::nullopt;
   }
   return worst;
+}
+
+Worst ScoutedPlaces::worst_of_all(const Model& model) {
+  const auto found = look_at_all(model);
+  return found ? *found : worst(model, false, INFINITY);
+}
+
+std::optional<Worst> ScoutedPlaces::correct_for(const Model& model) {
+  forget_modes();
+  return look_at_all(model);
 }
 
 void ScoutedPlaces::forget_modes() {
@@ -150,11 +152,8 @@ std::optional<double> ScoutedPlaces::indicator_at(const Model& model, ProjectedP
   const SparsePencil pencil = large_.pencil(place.at);
   const auto bases = large_.bases(model, pencil);
   if (!bases) return place.is_old ? std::nullopt : std::optional(0.0);
-  if (place.is_old) {
-    SmallPencil small = large_.small(model, place.at, pencil, *bases->right);
-    if (!renew(place, small)) return std::nullopt;
-    if (large_.keeps_small()) place.small = std::move(small);
-  }
+  if (place.is_old && !renew(place, large_.small(model, place.at, pencil, *bases->right)))
+    return std::nullopt;
   const std::vector<ProjectedMode> modes = lifted(moving_modes(place), *bases->right, *bases->left);
   const std::vector<EigenvalueError> errors = eigenvalue_errors(pencil, modes);
   double largest = 0.0;
@@ -163,14 +162,12 @@ std::optional<double> ScoutedPlaces::indicator_at(const Model& model, ProjectedP
   return largest;
 }
 
-double ScoutedPlaces::distance(const Model& model, const ProjectedPlace& place,
-                               const std::vector<Complex>& exact) const {
-  const SmallPencil small = large_.small_of(model, place);
+double ScoutedPlaces::distance(const ProjectedPlace& place, const std::vector<Complex>& exact) const {
   double largest = 0.0;
   for (const ProjectedMode& mode : moving_modes(place)) {
     EigenvalueError error{std::numeric_limits<double>::infinity()};
     for (const Complex other : exact) error.distance = std::min(error.distance, std::abs(other - mode.s));
-    error.half_gap = half_gap(small, mode);
+    error.half_gap = half_gap(place.small, mode);
     largest = std::max(largest, error.relative_to(size(mode.s)));
   }
   return largest;

@@ -39,7 +39,7 @@ class ScoutedPlaces {
   std::optional<Worst> correct_for(const Model& model);
 
   /// Largest distance of the modes at a place from the nearest of some eigenvalues, relative to their size.
-  double distance(const Model& model, const ProjectedPlace& place, const std::vector<Complex>& exact) const;
+  double distance(const ProjectedPlace& place, const std::vector<Complex>& exact) const;
 
   /// Modes of a place without infinite eigenvalues and rigid-body motions: zeros are known to the root of
   /// rounding only.
@@ -51,6 +51,7 @@ class ScoutedPlaces {
   void forget_modes();
   std::optional<Worst> find_worst(const Model& model, double enough);
   bool look_at(const Model& model, std::size_t i, Worst& worst);
+  std::optional<Worst> look_at_all(const Model& model);
   std::optional<double> indicator_at(const Model& model, ProjectedPlace& place) const;
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 

@@ -60,14 +60,8 @@ TimedTrace time_projected(const Setting& setting) {
   Setting projected;
   projected.scene = setting.scene;
   projected.options = setting.options;
-  const auto* family = dynamic_cast<const SparseFamily*>(setting.model.get());
-  const std::shared_ptr<const Model> scene(setting.model.get(), [](const Model*) {});
-  const double seconds = seconds_of([&] {
-    if (family != nullptr)
-      projected.model = project(*family, setting.options);
-    else
-      projected.model = project(scene, setting.options);
-  });
+  const std::shared_ptr<const Model> model(setting.model.get(), [](const Model*) {});
+  const double seconds = seconds_of([&] { projected.model = project(model, setting.options); });
   TimedTrace timed = time_trace(projected, projected.options);
   timed.seconds += seconds;
   return timed;

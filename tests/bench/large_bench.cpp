@@ -46,7 +46,7 @@ Run project_and_trace(const TraceSetup& setup, double tight = traced_tolerance) 
   setting.options = setup.options;
   setting.options.tolerance = tight;
   run.seconds = seconds_of([&] {
-    auto model = project(family_of(setup), setting.options);
+    auto model = projected_family(setup, setting.options);
     run.projection = *model->projection();
     run.coordinates = model->n_coordinates();
     setting.model = std::move(model);
@@ -59,7 +59,7 @@ Run project_and_trace(const TraceSetup& setup, double tight = traced_tolerance) 
 /// program that writes them.
 double peak_of_projection_and_trace(const TraceSetup& setup) {
   return peak_bytes_of([&] {
-    const auto model = project(family_of(setup), setup.options);
+    const auto model = projected_family(setup, setup.options);
     (void)trace(*model, setup.options, TraceObserver{});
   });
 }
@@ -256,7 +256,7 @@ double error_with_few_samples(const TraceSetup& setup, bool left_vectors) {
   options.left_vectors = left_vectors;
   TraceOptions tight = setup.options;
   tight.tolerance = 1e-9;  // neither is done with five samples
-  const auto model = project(family_of(setup), tight, {}, options);
+  const auto model = projected_family(setup, tight, options);
   const FamilyPencils pencils(family_of(setup));
   ModeFinder finder(1e-13);
   double worst = 0.0;

@@ -64,12 +64,16 @@ TEST(Digits, TypedMatricesAreExact) {
 }
 
 TEST(Digits, Option) {
-  EXPECT_FALSE(digits_option({}).given);
-  EXPECT_EQ(digits_option({{"digits", "6"}}).digits, 6);
-  EXPECT_TRUE(digits_option({{"digits", "all"}}).given);
-  EXPECT_EQ(digits_option({{"digits", "all"}}).digits, std::nullopt);
+  SampledData data = random_samples(8);
+  EXPECT_EQ(note_digits(data, {}), "");
+  EXPECT_EQ(note_digits(data, {{"digits", "6"}}), "6 significant digits");
+  EXPECT_EQ(data.digits, 6);
+  EXPECT_EQ(note_digits(data, {{"digits", "all"}}, 5), "");
+  EXPECT_EQ(data.digits, std::nullopt);
+  note_digits(data, {}, 5);
+  EXPECT_EQ(data.digits, 5);
   for (const char* text : {"0", "18", "six", "", "6.5"}) {
-    const std::string message = test::input_error([&] { digits_option({{"digits", text}}); });
+    const std::string message = test::input_error([&] { note_digits(data, {{"digits", text}}); });
     EXPECT_TRUE(test::contains(message, "--digits: expected a whole number from 1 to 17, or all")) << message;
   }
 }

@@ -27,7 +27,7 @@ AffinePencil<SparseMatrix> masses_with_an_entering_mode(Eigen::Index n, double e
 TEST(ModeEntries, AreNotedWithinTheStepInWhichTheyEnter) {
   for (const double entry : {0.08, 0.37, 0.625, 0.93}) {
     const TraceSetup setup = large_setup(masses_with_an_entering_mode(300, entry), 0.0, 1.0, 3, 1e-6);
-    const auto model = project(dynamic_cast<const SparseFamily&>(*setup.model), setup.options);
+    const auto model = projected_family(setup, setup.options);
     ASSERT_EQ(model->projection()->notes.size(), 1U) << entry;
     const std::string& note = model->projection()->notes.front();
     double from = 0.0, to = 0.0, frequency = 0.0;
@@ -46,7 +46,7 @@ TEST(ModeEntries, AreNotedWithinTheStepInWhichTheyEnter) {
 
 TEST(ModeEntries, AreNotNotedWhereTheyStayAway) {
   const TraceSetup setup = large_setup(masses_with_an_entering_mode(300, 1.1), 0.0, 1.0, 3, 1e-6);
-  const auto model = project(dynamic_cast<const SparseFamily&>(*setup.model), setup.options);
+  const auto model = projected_family(setup, setup.options);
   EXPECT_TRUE(model->projection()->notes.empty()) << model->projection()->notes.front();
 }
 

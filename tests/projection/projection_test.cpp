@@ -31,11 +31,11 @@ struct Traced {
 /// Projects and traces; the dense output at random places.
 Traced run(const TraceSetup& setup, int n_places, const ProjectionOptions& options = {}) {
   Traced traced;
-  traced.model = project(family_of(setup), setup.options, {}, options);
+  traced.model = projected_family(setup, setup.options, options);
   Setting setting;
   setting.scene = setup.scene;
   setting.options = setup.options;
-  setting.model = project(family_of(setup), setup.options, {}, options);
+  setting.model = projected_family(setup, setup.options, options);
   const RecordedTrace record = record_trace(setting);
   traced.result = record.result;
   std::mt19937_64 engine(1);
@@ -119,7 +119,7 @@ AffinePencil<SparseMatrix> planted_meetings(Eigen::Index n) {
 
 TEST(Projection, CrossingNarrowVeeringAndFlutterOfALargeModelAreToldApart) {
   const TraceSetup setup = large_setup(planted_meetings(5000), 0.0, 1.0, 5, 1e-10);
-  const std::unique_ptr<ProjectedFamily> model = project(family_of(setup), setup.options);
+  const std::unique_ptr<ProjectedFamily> model = projected_family(setup, setup.options);
   const TraceResult result = trace(*model, setup.options, TraceObserver{});
   EXPECT_EQ(result.status, TraceStatus::completed);
   std::map<EventKind, std::vector<Event>> found;
@@ -183,9 +183,9 @@ TEST(Projection, CirculatoryModelsNeedLeftVectors) {
   ProjectionOptions options;
   options.first_samples = 3;
   options.max_factorizations = 4;  // and one more: five samples, with which neither is done
-  const auto both = project(family_of(setup), setup.options, {}, options);
+  const auto both = projected_family(setup, setup.options, options);
   options.left_vectors = false;
-  const auto right = project(family_of(setup), setup.options, {}, options);
+  const auto right = projected_family(setup, setup.options, options);
   for (const double p : {0.3, 0.7, 1.2, 1.7}) {
     const double small = error_at(setup, *both, p);
     EXPECT_LT(small, 1e-10) << p;
@@ -203,7 +203,7 @@ TEST(Projection, ErrorsBetweenTheSamplesAreWithinTheEstimate) {
   plate.convection = 10.0;
   for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
     const TraceSetup setup = large_setup(rotating_plate(plate), 0.0, 2.0, 4, tolerance);
-    const auto model = project(family_of(setup), setup.options);
+    const auto model = projected_family(setup, setup.options);
     const Projection& projection = *model->projection();
     EXPECT_LE(projection.factorizations, 6) << tolerance;
     EXPECT_LE(projection.error, 30.0 * projection.target) << tolerance;
@@ -248,12 +248,12 @@ TEST(Projection, CrossingsAndVeeringsAreToldApart) {
 
 TEST(Projection, AModeThatComesAmongTheFollowedOnesIsNoted) {
   const TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 6.0, 6, 1e-6);
-  const auto model = project(family_of(setup), setup.options);
+  const auto model = projected_family(setup, setup.options);
   ASSERT_EQ(model->projection()->notes.size(), 1U);
   EXPECT_NE(model->projection()->notes.front().find("not followed come among the followed ones"),
             std::string::npos);
   const TraceSetup lowest = large_setup(rotating_plate({16}), 0.0, 0.3, 6, 1e-6);
-  EXPECT_TRUE(project(family_of(lowest), lowest.options)->projection()->notes.empty());
+  EXPECT_TRUE(projected_family(lowest, lowest.options)->projection()->notes.empty());
 }
 
 /// What explain says of the memory of the factors is near the truth, with left vectors as well: the bound
@@ -265,7 +265,7 @@ TEST(Projection, EstimatesOfFactorsAreNearTheFactors) {
     plate.convection = convection;
     const TraceSetup setup = large_setup(rotating_plate(plate), 0.0, 2.0, 4, 1e-4);
     const ProjectionEstimate estimate = estimate_projection(family_of(setup), setup.options);
-    const auto model = project(family_of(setup), setup.options);
+    const auto model = projected_family(setup, setup.options);
     EXPECT_EQ(estimate.two_sided, true);
     const double bytes = static_cast<double>(model->projection()->peak_bytes);
     EXPECT_LT(estimate.factor_bytes, 2.0 * bytes) << convection;
@@ -410,9 +410,9 @@ TEST(Projection, FreeModelsWithDampingAreProjected) {
 
 TEST(Projection, SingleValuesAreExact) {
   const TraceSetup setup = large_setup(rotating_plate({16, 0.02, 1.0}), 0.0, 3.0, 4, 1e-6);
-  const auto model = project_at(family_of(setup), setup.options, {1.0});
+  const auto model = project_at(shared_model(setup), setup.options, {1.0});
   EXPECT_EQ(model->projection()->factorizations, 1);
-  const AffinePencil<Matrix> reduced = model->at(at(1.0));
+  const AffinePencil<Matrix> reduced = dynamic_cast<const ProjectedFamily&>(*model).at(at(1.0));
   const Spectrum spectrum =
       compute_spectrum(reduced.M.front().matrix, reduced.C.front().matrix, reduced.K.front().matrix);
   for (int i = 0; i < 4; ++i) {
@@ -425,14 +425,14 @@ TEST(Projection, SingleValuesAreExact) {
 TEST(Projection, AllModesOfALargeModelAreRefused) {
   TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 3.0, 4, 1e-6);
   setup.options.modes = {};
-  EXPECT_THROW((void)project(family_of(setup), setup.options), InputError);
+  EXPECT_THROW((void)projected_family(setup, setup.options), InputError);
 }
 
 TEST(Projection, ModesInABandAreAllThere) {
   TraceSetup setup = large_setup(rotating_plate({16}), 0.0, 1.0, 4, 1e-6);
   setup.options.modes = {};
   setup.options.modes.band = FrequencyBand{5.0, 8.0};
-  const auto model = project(family_of(setup), setup.options);
+  const auto model = projected_family(setup, setup.options);
   const AffinePencil<Matrix> reduced = model->at(at(0.0));
   const Spectrum small =
       compute_spectrum(reduced.M.front().matrix, reduced.C.front().matrix, reduced.K.front().matrix);

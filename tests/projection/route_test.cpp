@@ -86,7 +86,7 @@ TEST(Routes, TheChoiceDoesNotChangeEigenvalues) {
   const TraceSetup setup = plate(7, 4);
   Setting dense, projected;
   dense.options = projected.options = setup.options;
-  projected.model = project(dynamic_cast<const SparseFamily&>(*setup.model), setup.options);
+  projected.model = projected_family(setup, setup.options);
   dense.model = plate(7, 4).model;
   const RecordedTrace one = record_trace(dense), other = record_trace(projected);
   for (const double p : {0.0, 0.37, 0.71, 1.0}) {

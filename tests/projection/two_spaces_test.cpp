@@ -72,7 +72,7 @@ TEST(TwoSpaces, MakeTheProjectionOfACirculatoryPlateSmaller) {
   RotatingPlate plate;
   plate.convection = 10.0;
   const TraceSetup setup = large_setup(rotating_plate(plate), 0.0, 2.0, 6, 1e-6);
-  const auto model = project(dynamic_cast<const SparseFamily&>(*setup.model), setup.options);
+  const auto model = projected_family(setup, setup.options);
   EXPECT_LE(model->n_coordinates(), 60);
   EXPECT_EQ(model->projection()->basis.cols(), model->n_coordinates());
   EXPECT_LE(model->projection()->factorizations, 5);

@@ -240,6 +240,16 @@ TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to
   return setup;
 }
 
+std::shared_ptr<const Model> shared_model(const TraceSetup& setup) {
+  return {std::shared_ptr<const Model>(), setup.model.get()};
+}
+
+std::unique_ptr<ProjectedFamily> projected_family(const TraceSetup& setup, const TraceOptions& trace,
+                                                  const ProjectionOptions& options) {
+  std::unique_ptr<Model> model = project(shared_model(setup), trace, {}, options);
+  return std::unique_ptr<ProjectedFamily>(dynamic_cast<ProjectedFamily*>(model.release()));
+}
+
 std::vector<Complex> eigenvalues_near(const AffinePencil<SparseMatrix>& at, Complex near, int count) {
   using Sparse = Eigen::SparseMatrix<Complex>;
   const Sparse M = at.M.front().matrix.cast<Complex>(), C = at.C.front().matrix.cast<Complex>(),

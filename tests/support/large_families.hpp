@@ -7,6 +7,7 @@
 
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/model/affine_family.hpp"
+#include "eigentrail/projection/project.hpp"
 
 namespace eigentrail::test {
 
@@ -49,6 +50,13 @@ AffinePencil<SparseMatrix> two_plates(int cells, double softer, double coupling)
 /// A trace of a sparse family over its parameter "omega" (rad/s), ready for `project` and `trace`.
 TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes,
                        double tolerance);
+
+/// The model of such a trace without ownership, as `project` takes it.
+std::shared_ptr<const Model> shared_model(const TraceSetup& setup);
+
+/// The projection of its model, which stays as it is.
+std::unique_ptr<ProjectedFamily> projected_family(const TraceSetup& setup, const TraceOptions& trace,
+                                                  const ProjectionOptions& options = {});
 
 /// Eigenvalues s (Im s >= 0) of the pencil nearest to `near`, by shift-invert iteration of a block of vectors
 /// with Eigen's sparse LU: independent of the library's solvers.

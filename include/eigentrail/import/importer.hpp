@@ -16,6 +16,12 @@ struct ImportRequest {
   std::vector<std::string> files;  ///< paths as the user gave them
   /// Options of the format, such as "parameter"; without an entry the importer chooses.
   std::map<std::string, std::string> options;
+
+  /// An option; `otherwise` if it was not given.
+  std::string option(const std::string& name, const std::string& otherwise = "") const {
+    const auto given = options.find(name);
+    return given == options.end() ? otherwise : given->second;
+  }
 };
 
 /// Matrices that are polynomials of the parameter: M = M[0] + M[1] p + M[2] p^2 + ... Coefficients without

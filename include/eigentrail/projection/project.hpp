@@ -37,33 +37,36 @@ struct ProjectionOptions {
   SparseSolverMaker solver = {};  ///< what factors the large pencil; empty: SuiteSparse
 };
 
-/// A family that was projected.
-class ProjectedFamily final : public AffineFamily<Matrix> {
+/// The part of a projected model that knows of the projection.
+class Projected {
  public:
-  ProjectedFamily(ModelDescription description, AffinePencil<Matrix> pencil, Projection projection);
-
-  const Projection* projection() const override { return &projection_; }
   /// Replaces all that is known of the projection, but for its space.
   void settle(Projection outcome);
   /// Moves the basis of the space out of a model that is no longer needed.
   Matrix take_basis();
 
- private:
+ protected:
+  explicit Projected(Projection projection) : projection_(std::move(projection)) {}
+
   Projection projection_;
+};
+
+/// A family that was projected.
+class ProjectedFamily final : public AffineFamily<Matrix>, public Projected {
+ public:
+  ProjectedFamily(ModelDescription description, AffinePencil<Matrix> pencil, Projection projection);
+
+  const Projection* projection() const override { return &projection_; }
 };
 
 /// A scene whose linearized equations are restricted to few motions. Its equilibrium is that of the whole
 /// scene.
-class ProjectedScene final : public Model {
+class ProjectedScene final : public Model, public Projected {
  public:
   /// `first`: an equilibrium that is known, with the parameters that belong to it.
   ProjectedScene(std::shared_ptr<const Model> scene, Projection projection, Path first);
 
   const Projection* projection() const override { return &projection_; }
-  /// Replaces all that is known of the projection, but for its space.
-  void settle(Projection outcome);
-  /// Moves the basis of the space out of a model that is no longer needed.
-  Matrix take_basis();
 
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override { return scene_->structure(traced_parameter); }
@@ -84,7 +87,6 @@ class ProjectedScene final : public Model {
 
  private:
   std::shared_ptr<const Model> scene_;
-  Projection projection_;
   Path first_;
 };
 
@@ -96,26 +98,18 @@ using ParameterValues = std::map<std::string, double>;
 std::vector<ParameterValues> lines_over(const TraceOptions& trace, const std::string& second, double from,
                                         double to);
 
-/// Projects `family` for traces with the options `trace`, along each of the lines; without lines, along the
-/// one that `trace.values` gives. Throws InputError if the options ask for all modes, and NotProjected if
-/// modes cannot be found.
-std::unique_ptr<ProjectedFamily> project(const SparseFamily& family, const TraceOptions& trace,
-                                         const std::vector<ParameterValues>& lines = {},
-                                         const ProjectionOptions& options = {});
-
-/// Projects `family` for single values of the traced parameter: the chosen modes are exact at each of them.
-/// One factorization for each value. Throws as `project`.
-std::unique_ptr<ProjectedFamily> project_at(const SparseFamily& family, const TraceOptions& trace,
-                                            const std::vector<double>& values,
-                                            const ProjectionOptions& options = {});
-
-/// The same for a scene of bodies with sparse matrices. Its path is followed with the whole equilibrium, one
-/// sparse factorization of the steady equations per point. Throws NotProjected also if there is no
-/// equilibrium or if constraints are redundant.
-std::unique_ptr<Model> project(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+/// Projects a sparse family or a scene of bodies with sparse matrices for traces with the options `trace`,
+/// along each of the lines; without lines, along the one that `trace.values` gives. The path of a scene is
+/// followed with the whole equilibrium, one sparse factorization of the steady equations per point. Throws
+/// InputError if the options ask for all modes, and NotProjected if modes cannot be found, or if a scene has
+/// no equilibrium or redundant constraints. A family becomes a ProjectedFamily.
+std::unique_ptr<Model> project(std::shared_ptr<const Model> model, const TraceOptions& trace,
                                const std::vector<ParameterValues>& lines = {},
                                const ProjectionOptions& options = {});
-std::unique_ptr<Model> project_at(std::shared_ptr<const Model> scene, const TraceOptions& trace,
+
+/// Projects a model for single values of the traced parameter: the chosen modes are exact at each of them.
+/// One factorization for each value. Throws as `project`.
+std::unique_ptr<Model> project_at(std::shared_ptr<const Model> model, const TraceOptions& trace,
                                   const std::vector<double>& values, const ProjectionOptions& options = {});
 
 /// Replaces a large model by its projection; leaves others as they are.
