@@ -7,7 +7,7 @@
 
 #include "core/transposition.hpp"
 #include "eigentrail/model/affine_family.hpp"
-#include "model/rotor/tabulated_factor.hpp"
+#include "model/tabulated_factor.hpp"
 
 namespace eigentrail {
 
@@ -15,7 +15,7 @@ namespace eigentrail {
 template <class Scalar, class Storage>
 Scalar factor_of(const AffineTerm<Storage>& term, std::span<const Scalar> si) {
   const Scalar value = term.factor.evaluate(si);
-  return term.table ? (*term.table)(value)*term.scale.evaluate(si) : value;
+  return term.table ? apply(*term.table, value) * term.scale.evaluate(si) : value;
 }
 
 /// Whether all terms are symmetric (sign 1) or skew-symmetric (-1).

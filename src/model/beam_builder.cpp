@@ -49,30 +49,11 @@ class BeamBuilder {
       if (std::find(taken.begin(), taken.end(), node_name(i)) != taken.end())
         table_.fail("name",
                     "a body or point is called '" + node_name(i) + "' already, like a node of this beam");
-      const int triple = static_cast<int>(draft_.guess.size()) / 3;
-      for (const Expression& e : axis_.position[index]) draft_.guess.push_back(e);
-      for (const ExpressionVector& director : axis_.rotation[index]) {
-        for (const Expression& e : director) draft_.guess.push_back(e);
-      }
-      draft_.mass_names.push_back(node_name(i));
-      draft_.bodies.push_back({node_name(i), triple, axis_.position[index], axis_.rotation[index], {}});
-      draft_.masses.push_back(mass_distribution(triple, mass[index]));
-      add_directors(draft_, static_cast<int>(draft_.bodies.size()) - 1);
+      const auto& [m, my, mz, yy, zz, yz] = mass[index];
+      const Expression none(0.0);
+      add_body(draft_, {node_name(i), 0, axis_.position[index], axis_.rotation[index], {}},
+               {m, {none, my, mz}, {none, yy, zz, none, none, yz}});
     }
-  }
-
-  MassDistribution mass_distribution(int triple, const BeamTable::Mass& moments) {
-    MassDistribution masses;
-    masses.size = 4;
-    for (int i = 0; i < 4; ++i) masses.carriers[static_cast<std::size_t>(i)] = draft_.point_place(triple + i);
-    const auto moment = [&](int i) {
-      return draft_.quantity_unless_zero(moments[static_cast<std::size_t>(i)]);
-    };
-    const Quantity none;
-    masses.mass = moment(0);
-    masses.first = {none, moment(1), moment(2)};
-    masses.second = {none, moment(3), moment(4), none, none, moment(5)};
-    return masses;
   }
 
   /// Every node has the integral of its shape function over the mass: the mass matrix is lumped. The errors

@@ -13,26 +13,6 @@
 #include "model/sampled_family.hpp"
 
 namespace eigentrail {
-namespace {
-
-/// Checks that the entries of the matrices that depend on parameters are finite at the points to be checked.
-void check_entries(const Scene& scene, const ModelRequest& request) {
-  Draft draft(scene, request);
-  TableReader table = draft.reader(*tables(scene, "matrix_family").front(), "[matrix_family]");
-  for (const char* key : {"M", "C", "K", "A"}) {
-    if (!table.has(key)) continue;
-    for (const auto& matrix : table.matrices(key)) {
-      for (const auto& row : matrix) {
-        for (const Expression& entry : row) {
-          if (!entry.is_constant()) draft.check_range(table, key, entry, Range::any);
-        }
-      }
-    }
-  }
-}
-
-}  // namespace
-
 void check_top_level(const Scene& scene) {
   std::vector<std::string> known = {"title", "parameters", "trace", "events", "modes"};
   std::string family;
@@ -94,11 +74,8 @@ std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& reque
   if (!request.without.empty())
     throw without_error(scene, request.without.front(),
                         "cannot be left out: a family of matrices has no effects");
-  if (scene.root.find("sampled_family") != nullptr)
-    return read_sampled_family(scene, request.used_elsewhere, request.check_at);
-  std::unique_ptr<Model> model = read_matrix_family(scene, request.used_elsewhere);
-  check_entries(scene, request);
-  return model;
+  return scene.root.find("sampled_family") != nullptr ? read_sampled_family(scene, request)
+                                                      : read_matrix_family(scene, request);
 }
 
 InputError without_error(const Scene& scene, const std::string& effect, const std::string& message) {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "core/short_text.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
+#include "model/beside_scene.hpp"
 #include "model/sample_interpolation.hpp"
 
 namespace eigentrail {
@@ -25,18 +26,11 @@ const std::string& unit_of_column(const TableColumns& columns, const std::string
       ->second;
 }
 
-std::string short_number(double x) {
-  std::ostringstream text;
-  text.precision(3);
-  text << x;
-  return text.str();
-}
-
 void check_ascending(const CsvTable& csv, const std::vector<double>& values) {
   const CsvColumn& first = csv.columns.front();
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!(values[i] > values[i - 1]))
-      throw TableFault(csv.path + ":" + std::to_string(csv.lines[i]) + ": " + first.name +
+      throw InputError(csv.path + ":" + std::to_string(csv.lines[i]) + ": " + first.name +
                        " must ascend; found " + exact_text(first.values[i]) + " behind " +
                        exact_text(first.values[i - 1]));
   }
@@ -72,50 +66,60 @@ double error_left_out(const SamplePiece& piece, const std::vector<double>& colum
   return largest > 0.0 ? worst / largest : 0.0;
 }
 
-/// Factor to the SI unit of the first column.
-double factor_of_argument(const CsvTable& csv, const std::string& wanted) {
-  const CsvColumn& first = csv.columns.front();
-  if (first.unit.empty()) return 1.0;
-  const auto unit = parse_unit(first.unit);
-  if (!unit)
-    throw TableFault(csv.path + ": column " + first.name + ": unit '" + first.unit + "' is not known; " +
-                     unit_suggestion(first.unit));
-  if (!wanted.empty() && !(unit->dimension == parse_unit(wanted)->dimension))
-    throw TableFault(csv.path + ": column " + first.name + " is in " + first.unit + ", but " + wanted +
-                     " is expected");
-  return unit->factor;
-}
-
 /// Checks the size of the table and the names of its columns.
 void check_columns(const CsvTable& csv, const TableColumns& columns) {
   const std::vector<std::string> known = names_of(columns);
   const std::string& first = csv.columns.front().name;
   if (std::find(known.begin(), known.end(), first) != known.end())
-    throw TableFault(csv.path + ": the first column is " + columns.argument + "; found '" + first + "'");
+    throw InputError(csv.path + ": the first column is " + columns.argument + "; found '" + first + "'");
   if (csv.columns.size() < 2)
-    throw TableFault(csv.path + ": has no column of a coefficient, such as " + known.front());
+    throw InputError(csv.path + ": has no column of a coefficient, such as " + known.front());
   for (std::size_t i = 1; i < csv.columns.size(); ++i) {
     const std::string& name = csv.columns[i].name;
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw TableFault(csv.path + ": unknown column '" + name + "'; " + suggestion(name, known));
+      throw InputError(csv.path + ": unknown column '" + name + "'; " + suggestion(name, known));
   }
   if (csv.rows() > limits::samples)
-    throw TableFault(csv.path + ": has " + std::to_string(csv.rows()) + " rows; at most " +
+    throw InputError(csv.path + ": has " + std::to_string(csv.rows()) + " rows; at most " +
                      std::to_string(limits::samples) + " are read");
-  if (csv.rows() < 2) throw TableFault(csv.path + ": has one row; expected two at least");
+  if (csv.rows() < 2) throw InputError(csv.path + ": has one row; expected two at least");
 }
 
 std::vector<std::vector<double>> coefficients_of(const CsvTable& csv, const TableColumns& known) {
   std::vector<std::vector<double>> columns;
-  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
-    const CsvColumn& column = csv.columns[i];
-    try {
-      columns.push_back(si_values(csv, column, unit_of_column(known, column.name)));
-    } catch (const InputError& error) {
-      throw TableFault(error.what());
-    }
-  }
+  for (std::size_t i = 1; i < csv.columns.size(); ++i)
+    columns.push_back(si_values(csv, csv.columns[i], unit_of_column(known, csv.columns[i].name)));
   return columns;
+}
+
+CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const TableColumns& known) {
+  check_columns(csv, known);
+  const CsvColumn& first = csv.columns.front();
+  CoefficientTable table;
+  table.path = csv.path;
+  table.argument = argument;
+  table.first_name = first.name;
+  table.first_unit = first.unit;
+  table.factor = si_factor(csv, first, known.unit.empty() ? WantedUnit() : WantedUnit(known.unit));
+  std::vector<double> nodes = first.values;
+  for (double& node : nodes) node *= table.factor;
+  check_ascending(csv, nodes);
+  const std::vector<std::vector<double>> columns = coefficients_of(csv, known);
+  std::optional<int> degree = known.degree;
+  if (degree) degree = std::min(*degree, static_cast<int>(nodes.size()) - 1);
+  std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, degree);
+  table.piece = std::make_shared<const SamplePiece>(std::move(pieces.front()));
+  table.error = std::nan("");
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double error = error_left_out(*table.piece, columns[i]);
+    if (!(error <= table.error)) {
+      table.error = error;
+      table.worst = csv.columns[i + 1].name;
+    }
+    table.columns.emplace_back(csv.columns[i + 1].name,
+                               std::make_shared<const TabulatedFactor>(table.piece, columns[i], known.exact));
+  }
+  return table;
 }
 
 }  // namespace
@@ -140,42 +144,23 @@ std::string CoefficientTable::outside(double at) const {
 std::string CoefficientTable::in_words() const {
   const std::vector<double>& nodes = piece->interpolant.nodes();
   std::string text = "table of " + std::to_string(nodes.size()) + " rows, " + first_name + " = " +
-                     short_number(nodes.front() / factor) + " to " + short_number(nodes.back() / factor) +
+                     short_text(nodes.front() / factor, 3) + " to " + short_text(nodes.back() / factor, 3) +
                      (first_unit.empty() ? "" : " " + first_unit) + ", interpolant of degree " +
                      std::to_string(piece->interpolant.degree());
   if (columns.front().second->is_exact()) return text + ", taken as exact";
   if (std::isnan(error)) return text + "; too few rows to tell its error";
-  return text + "; a row that is left out is missed by " + short_number(error) + " of the largest " + worst +
+  return text + "; a row that is left out is missed by " + short_text(error, 3) + " of the largest " + worst +
          " at most";
 }
 
-CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const TableColumns& known) {
-  check_columns(csv, known);
-  const CsvColumn& first = csv.columns.front();
-  CoefficientTable table;
-  table.argument = argument;
-  table.first_name = first.name;
-  table.first_unit = first.unit;
-  table.factor = factor_of_argument(csv, known.unit);
-  std::vector<double> nodes = first.values;
-  for (double& node : nodes) node *= table.factor;
-  check_ascending(csv, nodes);
-  const std::vector<std::vector<double>> columns = coefficients_of(csv, known);
-  std::optional<int> degree = known.degree;
-  if (degree) degree = std::min(*degree, static_cast<int>(nodes.size()) - 1);
-  std::vector<SamplePiece> pieces = interpolate_samples(samples_of(nodes, columns), nodes, {}, degree);
-  table.piece = std::make_shared<const SamplePiece>(std::move(pieces.front()));
-  table.error = std::nan("");
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double error = error_left_out(*table.piece, columns[i]);
-    if (!(error <= table.error)) {
-      table.error = error;
-      table.worst = csv.columns[i + 1].name;
-    }
-    table.columns.emplace_back(csv.columns[i + 1].name,
-                               std::make_shared<const TabulatedFactor>(table.piece, columns[i], known.exact));
+CoefficientTable read_coefficient_table(const Scene& scene, TableReader& table, const std::string& key,
+                                        const Expression& argument, const TableColumns& columns) {
+  const std::string path = beside_scene(scene, table, key);
+  try {
+    return tabulate(read_csv(path), argument, columns);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
   }
-  return table;
 }
 
 }  // namespace eigentrail

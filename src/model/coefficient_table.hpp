@@ -4,23 +4,17 @@
 
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "eigentrail/scene/expression.hpp"
 #include "model/csv_table.hpp"
-#include "model/rotor/tabulated_factor.hpp"
+#include "model/tabulated_factor.hpp"
 
 namespace eigentrail {
 
-/// A fault of a table; the message names the file, and the line where there is one.
-class TableFault : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 struct CoefficientTable {
+  std::string path;     ///< of the file
   Expression argument;  ///< SI
   std::shared_ptr<const SamplePiece> piece;
   std::string first_name;  ///< of the argument's column
@@ -52,7 +46,9 @@ struct TableColumns {
   bool exact = false;
 };
 
-/// The columns of a table; the first one is the argument, ascending. Throws TableFault.
-CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const TableColumns& columns);
+/// The table in the file that a key of a scene's table names; the first column is the argument, ascending.
+/// Throws InputError with the place in the scene, the file, and the line where there is one.
+CoefficientTable read_coefficient_table(const Scene& scene, TableReader& table, const std::string& key,
+                                        const Expression& argument, const TableColumns& columns);
 
 }  // namespace eigentrail

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/trimmed.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
@@ -19,11 +20,8 @@ namespace {
   throw InputError(path + ":" + std::to_string(line) + ": " + printable(message));
 }
 
-std::string without_blanks(const std::string& text) {
-  const char* blanks = " \t\r\"";
-  const auto begin = text.find_first_not_of(blanks);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+std::string without_blanks(std::string_view text) {
+  return std::string(trimmed(text, " \t\r\""));
 }
 
 /// The character that separates the cells of the headings.
@@ -121,17 +119,22 @@ CsvTable read_csv(const Scene& scene, TableReader& table, const std::string& key
   }
 }
 
-std::vector<double> si_values(const CsvTable& table, const CsvColumn& column, const std::string& wanted) {
-  std::vector<double> values = column.values;
-  if (column.unit.empty()) return values;
+double si_factor(const CsvTable& table, const CsvColumn& column, WantedUnit wanted) {
+  if (column.unit.empty()) return 1.0;
   const auto unit = parse_unit(column.unit);
   if (!unit)
     throw InputError(table.path + ": column " + column.name + ": unit '" + column.unit + "' is not known; " +
                      unit_suggestion(column.unit));
-  if (!(unit->dimension == parse_unit(wanted)->dimension))
+  if (wanted && !(unit->dimension == parse_unit(*wanted)->dimension))
     throw InputError(table.path + ": column " + column.name + " is in " + column.unit + ", but " +
-                     (wanted.empty() ? "a number without unit" : wanted) + " is expected");
-  for (double& value : values) value *= unit->factor;
+                     (wanted->empty() ? "a number without unit" : std::string(*wanted)) + " is expected");
+  return unit->factor;
+}
+
+std::vector<double> si_values(const CsvTable& table, const CsvColumn& column, const std::string& wanted) {
+  const double factor = si_factor(table, column, wanted);
+  std::vector<double> values = column.values;
+  for (double& value : values) value *= factor;
   return values;
 }
 

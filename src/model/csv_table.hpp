@@ -31,6 +31,10 @@ CsvTable read_csv(const std::string& path);
 /// The file that a key of a scene's table names. Throws InputError with the place in the scene, too.
 CsvTable read_csv(const Scene& scene, TableReader& table, const std::string& key);
 
+/// Factor of the values of a column to the SI unit of a quantity in `wanted`; empty: of any quantity. Throws
+/// InputError as si_values.
+double si_factor(const CsvTable& table, const CsvColumn& column, WantedUnit wanted);
+
 /// Values of a column in the SI unit of a quantity in `wanted`. Throws InputError if the column has another
 /// dimension or a unit that is not known.
 std::vector<double> si_values(const CsvTable& table, const CsvColumn& column, const std::string& wanted);

@@ -12,6 +12,10 @@ std::string numbered(std::string_view name, std::size_t index) {
   return std::string(name) + " " + std::to_string(index + 1);
 }
 
+std::string label_of(TableReader& table, std::string_view kind, std::size_t index) {
+  return table.has("name") ? printable(table.text("name")) : numbered(kind, index);
+}
+
 Draft::Draft(const Scene& of, const ModelRequest& asked)
     : scene(of), request(asked), check_at(asked.check_at), used(asked.used_elsewhere) {
   for (Vector& values : check_at)
@@ -36,8 +40,7 @@ Quantity Draft::quantity(const Expression& expression) {
 }
 
 Quantity Draft::quantity_unless_zero(const Expression& expression) {
-  const bool zero = expression.is_constant() && expression.evaluate(std::span<const double>()) == 0.0;
-  return zero ? Quantity() : quantity(expression);
+  return is_number(expression, 0.0) ? Quantity() : quantity(expression);
 }
 
 bool Draft::is_left_out(std::string_view effect) const {
@@ -54,8 +57,7 @@ Quantity Draft::strength(const std::string& effect) {
 }
 
 Parameters Draft::parameters() const {
-  std::vector<Parameter> list;
-  for (std::size_t i = 0; i < scene.parameters.size(); ++i) list.push_back(scene.parameters[i]);
+  std::vector<Parameter> list = scene.parameters.list();
   for (const std::string& effect : strength_names) {
     Parameter& strength = list.emplace_back();
     strength.name = strength_parameter(effect);
@@ -64,24 +66,28 @@ Parameters Draft::parameters() const {
   return Parameters(std::move(list));
 }
 
-Place Draft::on_body(int body, const ExpressionVector& at) {
-  const int origin = bodies[static_cast<std::size_t>(body)].triple;
-  Place place = direction_on({body, -1}, at);
-  place.terms.insert(place.terms.begin(), {origin, {}});
+Combination Draft::on_directors(int body, const ExpressionVector& along) const {
+  const int first = bodies[static_cast<std::size_t>(body)].triple + 1;
+  return {{first, along[0]}, {first + 1, along[1]}, {first + 2, along[2]}};
+}
+
+Place Draft::place_of(const Combination& combination) {
+  Place place;
+  for (const auto& [triple, weight] : combination) {
+    if (is_number(weight, 0.0)) continue;
+    place.terms.push_back({triple, is_number(weight, 1.0) ? Quantity() : quantity(weight)});
+  }
   return place;
 }
 
+Place Draft::on_body(int body, const ExpressionVector& at) {
+  Combination position = on_directors(body, at);
+  position.emplace(position.begin(), bodies[static_cast<std::size_t>(body)].triple, 1.0);
+  return place_of(position);
+}
+
 Place Draft::direction_on(const Carrier& carrier, const ExpressionVector& along) {
-  if (carrier.body < 0) return fixed_place(along);
-  Place place;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const bool zero = along[i].is_constant() && along[i].evaluate(std::span<const double>()) == 0.0;
-    if (zero) continue;
-    const int triple = bodies[static_cast<std::size_t>(carrier.body)].triple + 1 + static_cast<int>(i);
-    const bool one = along[i].is_constant() && along[i].evaluate(std::span<const double>()) == 1.0;
-    place.terms.push_back({triple, one ? Quantity() : quantity(along[i])});
-  }
-  return place;
+  return carrier.body < 0 ? fixed_place(along) : place_of(on_directors(carrier.body, along));
 }
 
 std::array<Place, 3> Draft::directors(int body) const {

@@ -46,6 +46,9 @@ struct Carrier {
   bool is_frame() const { return body < 0 && point < 0; }
 };
 
+/// Sum of weights times triples of coordinates: a moving vector before it is a Place.
+using Combination = std::vector<std::pair<int, Expression>>;
+
 struct Draft {
   Draft(const Scene& of, const ModelRequest& asked);
 
@@ -77,6 +80,15 @@ struct Draft {
   std::vector<std::string> strength_names;                      ///< in the order of their parameters
 
   TableReader reader(const Table& table, const std::string& label);
+  /// Calls read(table, i) for every table [[kind]] of the scene, i its index from 0.
+  template <class Read>
+  void for_each_table(std::string_view kind, Read read) {
+    const std::vector<const Table*> all = tables(scene, std::string(kind));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      TableReader table = reader(*all[i], "[[" + std::string(kind) + "]] " + std::to_string(i + 1));
+      read(table, i);
+    }
+  }
 
   Quantity quantity(const Expression& expression);
   /// The same, but without slot if it is zero for all values of the parameters.
@@ -95,6 +107,9 @@ struct Draft {
 
   Place point_place(int point) const { return {{{point, {}}}, {}, -1}; }
   Place fixed_place(const ExpressionVector& at) { return {{}, vector(at), -1}; }
+  Place place_of(const Combination& combination);
+  /// The directors of a body times the components of a direction in its axes.
+  Combination on_directors(int body, const ExpressionVector& along) const;
   /// The place with coordinates `at` in the axes of a body.
   Place on_body(int body, const ExpressionVector& at);
   /// The direction with components `along` in the axes of the carrier.
@@ -163,12 +178,22 @@ void check_is_new(const TableReader& table, std::string_view kind, const std::st
 
 /// A name for the table with index i of a kind: "spring 2" for i = 1.
 std::string numbered(std::string_view name, std::size_t index);
+/// What the scene calls a table: its key `name`, or the number among its kind.
+std::string label_of(TableReader& table, std::string_view kind, std::size_t index);
 
 /// Directions may be of any length, in any unit.
 inline constexpr WantedUnit any_unit = std::nullopt;
 
-/// The six constraints on the products of the directors of a body: unit vectors at right angles.
-void add_directors(Draft& draft, int body);
+/// Mass of a body and its moments about the origin, as MassDistribution has them.
+struct BodyMoments {
+  Expression mass;
+  std::array<Expression, 3> first;
+  std::array<Expression, 6> second;
+};
+
+/// Adds a body, whose triples follow those before it, with its mass and with the six constraints on the
+/// products of its directors, unit vectors at right angles.
+void add_body(Draft& draft, BodyDraft body, const BodyMoments& moments);
 
 /// Read the [[body]] tables (read_bodies.cpp) and the tables of all constraints (read_constraints.cpp).
 void read_bodies(Draft& draft);

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "eigentrail/scene/expression.hpp"
 
 namespace eigentrail {
+
+/// Whether an expression is this number for all values of the parameters.
+inline bool is_number(const Expression& e, double value) {
+  return e.is_constant() && e.evaluate(std::span<const double>()) == value;
+}
 
 using ExpressionVector = std::array<Expression, 3>;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
+#include "core/short_text.hpp"
 #include "core/transposition.hpp"
 #include "eigentrail/core/series.hpp"
 #include "eigentrail/core/text.hpp"
@@ -37,13 +37,6 @@ constexpr std::array<Given, 5> all_matrices = {{{"M", &MatricesAt::M},
 
 std::string at(const std::string& parameter, double p) {
   return parameter + " = " + exact_text(p);
-}
-
-std::string short_text(double number, int digits = 3) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << number;
-  return text.str();
 }
 
 void check(const FunctionFamilyOptions& options) {
@@ -166,14 +159,14 @@ std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& 
   const bool out_of_calls = calls >= options.max_calls;
   if (out_of_calls && what.error == 0.0)
     return "FunctionFamily: " + std::to_string(calls) + " calls are not enough to look for features of " +
-           short_text(options.resolution) +
+           short_text(options.resolution, 3) +
            " of the range: allow more calls (max_calls), or a larger resolution";
   return "FunctionFamily: " +
          (out_of_calls ? std::to_string(calls) + " calls are not enough for the tolerance "
                        : std::string("no pieces are short enough for the tolerance ")) +
          exact_text(options.tolerance) + ": between " + at(options.parameter, what.from) + " and " +
          exact_text(what.to) + " the entry " + layout.name(what.worst) + " is off by " +
-         short_text(what.error) +
+         short_text(what.error, 3) +
          " of its largest magnitude. Does it jump, or is there a kink? Name the place in breaks, or allow a "
          "larger tolerance" +
          (out_of_calls ? " or more calls" : "");
@@ -238,7 +231,8 @@ std::vector<FamilyPiece> sharp_pieces(const std::vector<FamilyPiece>& pieces, do
 std::string resolution_text(const FunctionFamilyOptions& options, const std::vector<FamilyPiece>& pieces) {
   const double resolved = options.resolution * (options.to - options.from);
   const std::string unit = options.unit.empty() ? "" : " " + options.unit;
-  std::string text = "features of the function down to " + short_text(resolved) + unit + " were looked for";
+  std::string text =
+      "features of the function down to " + short_text(resolved, 3) + unit + " were looked for";
   std::string places;
   for (const FamilyPiece& piece : sharp_pieces(pieces, resolved))
     places += (places.empty() ? "" : ", ") + short_text(0.5 * (piece.from + piece.to), 6);

@@ -4,8 +4,8 @@
 
 #include <memory>
 
+#include "eigentrail/model/build.hpp"
 #include "eigentrail/model/matrix_model.hpp"
-#include "eigentrail/scene/scene.hpp"
 
 namespace eigentrail {
 
@@ -55,6 +55,6 @@ class MatrixFamily final : public MatrixModel {
 };
 
 /// Reads [matrix_family] of a scene. Throws InputError for every fault in it.
-std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int>& used_elsewhere);
+std::unique_ptr<Model> read_matrix_family(const Scene& scene, const ModelRequest& request);
 
 }  // namespace eigentrail

@@ -48,11 +48,12 @@ class RationalInterpolant {
   }
 
   /// Coefficients c_0, ..., c_n of sum_j f_j b_j(x + t) = sum_k c_k t^k for values f at the nodes, n + 1 the
-  /// size of `coefficients`; not numbers outside the nodes.
+  /// size of `coefficients`; not numbers outside the nodes, if not by rounding.
   template <class Real>
   void taylor(const Real& x, const std::vector<double>& values, std::span<Real> coefficients) const {
     const double at = static_cast<double>(x);
-    const bool inside = at >= nodes_.front() && at <= nodes_.back();
+    const double slack = 1e-12 * (nodes_.back() - nodes_.front());
+    const bool inside = at >= nodes_.front() - slack && at <= nodes_.back() + slack;
     std::fill(coefficients.begin(), coefficients.end(),
               Real(inside ? 0.0 : std::numeric_limits<double>::quiet_NaN()));
     if (!inside) return;

@@ -122,20 +122,11 @@ class StripReader {
   }
 
   std::shared_ptr<const Polar> read_polar() {
-    const CsvTable csv = read_csv(draft_.scene, table_, "polar");
-    const TableColumns columns{
-        "the angle of attack", "rad", {{"lift", ""}, {"drag", ""}, {"moment", ""}}, polar_degree};
-    try {
-      const CoefficientTable table = tabulate(csv, 0.0, columns);
-      const auto curve = [&](const std::string& name) {
-        const auto column = table.find(name);
-        return PolarCurve(table.piece, column ? column->values() : std::vector<double>());
-      };
-      draft_.notes.emplace_back(table_.label() + " polar", table.in_words());
-      return std::make_shared<const Polar>(Polar{curve("lift"), curve("drag"), curve("moment")});
-    } catch (const TableFault& fault) {
-      table_.fail("polar", fault.what());
-    }
+    const CoefficientTable table = read_coefficient_table(
+        draft_.scene, table_, "polar", 0.0,
+        {"the angle of attack", "rad", {{"lift", ""}, {"drag", ""}, {"moment", ""}}, polar_degree});
+    draft_.notes.emplace_back(table_.label() + " polar", table.in_words());
+    return std::make_shared<const Polar>(Polar{table.find("lift"), table.find("drag"), table.find("moment")});
   }
 
   void read_inflow_of(Strip& common) {
@@ -198,9 +189,9 @@ class StripReader {
       Strip& strip = strips.emplace_back(common);
       const Expression angle = at(incidence);
       const Expression c = cos(angle), s = sin(angle);
-      strip.quarter_chord = place_of(draft_, sum_of({{1.0, point.position}, {at(quarter_chord), point.y}}));
-      strip.leading = place_of(draft_, sum_of({{c, point.y}, {s, point.z}}));
-      strip.lift = place_of(draft_, sum_of({{c, point.z}, {Expression(0.0) - s, point.y}}));
+      strip.quarter_chord = draft_.place_of(sum_of({{1.0, point.position}, {at(quarter_chord), point.y}}));
+      strip.leading = draft_.place_of(sum_of({{c, point.y}, {s, point.z}}));
+      strip.lift = draft_.place_of(sum_of({{c, point.z}, {Expression(0.0) - s, point.y}}));
       strip.width = draft_.quantity(point.width);
       strip.chord = draft_.quantity(at(chord));
       strip.lift_slope = draft_.quantity(at(slope));
@@ -221,14 +212,12 @@ class StripReader {
   std::array<double, 2> extent_ = {0.0, 1.0};
 };
 
-/// Calls read(table, strips) for every table of a kind, with the tables of strips that it is for.
-void for_each_table(Draft& draft, std::string_view kind, const std::vector<StripTable>& all,
-                    const std::function<void(TableReader&, const StripTable&)>& add) {
+/// Calls add(table, strips) for every table of a kind, with the tables of strips that it is for.
+void for_each_of_strips(Draft& draft, std::string_view kind, const std::vector<StripTable>& all,
+                        const std::function<void(TableReader&, const StripTable&)>& add) {
   std::vector<std::string> names, done;
   for (const StripTable& strips : all) names.push_back(strips.name);
-  const std::vector<const Table*> found = tables(draft.scene, std::string(kind));
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    TableReader table = draft.reader(*found[i], "[[" + std::string(kind) + "]] " + std::to_string(i + 1));
+  draft.for_each_table(kind, [&](TableReader& table, std::size_t) {
     const std::string name = table.has("strips") ? table.text("strips") : "";
     if (names.empty()) table.fail("strips", "the scene has no [[strips]]");
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
@@ -241,7 +230,7 @@ void for_each_table(Draft& draft, std::string_view kind, const std::vector<Strip
       add(table, strips);
     }
     table.finish();
-  }
+  });
 }
 
 /// Shares or rates of the exponentials, pair by pair: each pair is an element of its own.
@@ -264,20 +253,18 @@ std::vector<std::array<Quantity, 2>> read_pairs(Draft& draft, TableReader& table
 std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
                                           std::vector<InflowDraft>& inflows) {
   std::vector<StripTable> result;
-  const std::vector<const Table*> all = tables(draft.scene, std::string(Strip::name));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[strips]] " + std::to_string(i + 1));
-    StripTable strips{table.has("name") ? printable(table.text("name")) : numbered(Strip::name, i), {}};
+  draft.for_each_table(Strip::name, [&](TableReader& table, std::size_t i) {
+    StripTable strips{label_of(table, Strip::name, i), {}};
     check_is_new(table, Strip::name, strips.name, result);
     strips.strips = StripReader(draft, table, inflows).read(rotation);
     result.push_back(std::move(strips));
-  }
+  });
   return result;
 }
 
 std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft, const std::vector<StripTable>& all) {
   std::vector<std::pair<LiftLag, std::string>> result;
-  for_each_table(draft, LiftLag::name, all, [&](TableReader& table, const StripTable& strips) {
+  for_each_of_strips(draft, LiftLag::name, all, [&](TableReader& table, const StripTable& strips) {
     const auto shares = read_pairs(draft, table, "A", Range::any, {0.165, 0.335});
     const auto rates = read_pairs(draft, table, "b", Range::positive, {0.0455, 0.3});
     if (shares.size() != rates.size()) table.fail("b", "expected as many numbers as A has");
@@ -297,7 +284,7 @@ std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft, const s
 std::vector<std::pair<ApparentMass, std::string>> read_apparent_mass(Draft& draft,
                                                                      const std::vector<StripTable>& all) {
   std::vector<std::pair<ApparentMass, std::string>> result;
-  for_each_table(draft, ApparentMass::name, all, [&](TableReader&, const StripTable& strips) {
+  for_each_of_strips(draft, ApparentMass::name, all, [&](TableReader&, const StripTable& strips) {
     for (std::size_t i = 0; i < strips.strips.size(); ++i) {
       ApparentMass& mass = result.emplace_back(ApparentMass{strips.strips[i]}, strips.label(i)).first;
       mass.inflow = {};  // small beside the speed of the section

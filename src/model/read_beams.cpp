@@ -105,11 +105,9 @@ void check_time(Draft& draft, const TableReader& table, const std::string& key, 
 }
 
 void read_beams(Draft& draft) {
-  const std::vector<const Table*> all = tables(draft.scene, std::string(BeamSection::name));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[beam]] " + std::to_string(i + 1));
+  draft.for_each_table(BeamSection::name, [&](TableReader& table, std::size_t) {
     add_beam(draft, table, BeamReader(draft, table).read());
-  }
+  });
 }
 
 std::vector<std::pair<BeamSection, std::string>> labelled_sections(const Draft& draft) {
@@ -126,9 +124,7 @@ std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft)
   for (const BeamDraft& beam : draft.beams) {
     if (!beam.damping_times.empty()) add_damping(draft, beam, beam.damping_times, result);
   }
-  const std::vector<const Table*> all = tables(draft.scene, std::string(BeamDamping::name));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[beam_damping]] " + std::to_string(i + 1));
+  draft.for_each_table(BeamDamping::name, [&](TableReader& table, std::size_t) {
     const std::string name = table.text("beam");
     std::vector<std::string> names;
     for (const BeamDraft& beam : draft.beams) names.push_back(beam.name);
@@ -142,7 +138,7 @@ std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft)
     for (const Expression& time : times) check_time(draft, table, "time", time, times.size() == 6);
     table.finish();
     add_damping(draft, draft.beams[static_cast<std::size_t>(found - names.begin())], times, result);
-  }
+  });
   return result;
 }
 

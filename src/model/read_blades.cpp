@@ -87,7 +87,7 @@ class BladeReader {
   /// The axis of a curved blade begins on the axis of pitch.
   void check_root(const BeamTable& sections) {
     for (const auto& [key, values] : {std::pair("sweep", &sections.sweep), {"prebend", &sections.prebend}}) {
-      if (!(values->front().is_constant() && values->front().evaluate(std::span<const double>()) == 0.0))
+      if (!is_number(values->front(), 0.0))
         table_.fail(table_.has(key) ? key : "file",
                     std::string(key) + " must be 0 at the first station, where the blade meets the hub");
     }
@@ -120,11 +120,9 @@ class BladeReader {
 }  // namespace
 
 void read_blades(Draft& draft) {
-  const std::vector<const Table*> all = tables(draft.scene, "blade");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[blade]] " + std::to_string(i + 1));
+  draft.for_each_table("blade", [&](TableReader& table, std::size_t) {
     add_beam(draft, table, BladeReader(draft, table).read());
-  }
+  });
 }
 
 std::vector<FieldHelp> blade_fields() {

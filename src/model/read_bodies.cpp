@@ -137,24 +137,19 @@ void check_inertia(const Draft& draft, const TableReader& table, const Expressio
 }
 
 /// Moments G of a body about its origin.
-MassDistribution mass_distribution(Draft& draft, int body, const Expression& mass,
-                                   const ExpressionVector& centre, const ExpressionMatrix& J) {
-  MassDistribution masses;
-  masses.size = 4;
-  const int origin = draft.bodies[static_cast<std::size_t>(body)].triple;
-  for (int i = 0; i < 4; ++i) masses.carriers[static_cast<std::size_t>(i)] = draft.point_place(origin + i);
-  masses.mass = draft.quantity_unless_zero(mass);
+BodyMoments moments_of(const Expression& mass, const ExpressionVector& centre, const ExpressionMatrix& J) {
+  BodyMoments moments{mass, {}, {}};
   const Expression half_trace = Expression(0.5) * (J[0][0] + J[1][1] + J[2][2]);
   for (std::size_t i = 0; i < 3; ++i) {
-    masses.first[i] = draft.quantity_unless_zero(mass * centre[i]);
-    masses.second[i] = draft.quantity_unless_zero(half_trace - J[i][i] + mass * centre[i] * centre[i]);
+    moments.first[i] = mass * centre[i];
+    moments.second[i] = half_trace - J[i][i] + mass * centre[i] * centre[i];
   }
   const std::array<std::array<std::size_t, 2>, 3> mixed = {{{0, 1}, {0, 2}, {1, 2}}};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [i, j] = mixed[k];
-    masses.second[3 + k] = draft.quantity_unless_zero(mass * centre[i] * centre[j] - J[i][j]);
+    moments.second[3 + k] = mass * centre[i] * centre[j] - J[i][j];
   }
-  return masses;
+  return moments;
 }
 
 void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const ExpressionVector& centre) {
@@ -166,8 +161,6 @@ void read_markers(Draft& draft, TableReader& table, BodyDraft& body, const Expre
     body.markers[name] = draft.read_vector(markers, name, "m", Range::any);
   }
 }
-
-}  // namespace
 
 void add_directors(Draft& draft, int body) {
   const std::array<Place, 3> d = draft.directors(body);
@@ -181,10 +174,28 @@ void add_directors(Draft& draft, int body) {
                        std::move(rows));
 }
 
+}  // namespace
+
+void add_body(Draft& draft, BodyDraft body, const BodyMoments& moments) {
+  body.triple = static_cast<int>(draft.guess.size()) / 3;
+  MassDistribution& masses = draft.masses.emplace_back();
+  masses.size = 4;
+  for (int i = 0; i < 4; ++i)
+    masses.carriers[static_cast<std::size_t>(i)] = draft.point_place(body.triple + i);
+  masses.mass = draft.quantity_unless_zero(moments.mass);
+  for (std::size_t i = 0; i < 3; ++i) masses.first[i] = draft.quantity_unless_zero(moments.first[i]);
+  for (std::size_t i = 0; i < 6; ++i) masses.second[i] = draft.quantity_unless_zero(moments.second[i]);
+  for (const Expression& e : body.position) draft.guess.push_back(e);
+  for (const ExpressionVector& director : body.rotation) {
+    for (const Expression& e : director) draft.guess.push_back(e);
+  }
+  draft.mass_names.push_back(body.name);
+  draft.bodies.push_back(std::move(body));
+  add_directors(draft, static_cast<int>(draft.bodies.size()) - 1);
+}
+
 void read_bodies(Draft& draft) {
-  const std::vector<const Table*> all = tables(draft.scene, "body");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[body]] " + std::to_string(i + 1));
+  draft.for_each_table("body", [&](TableReader& table, std::size_t) {
     BodyDraft body;
     body.name = table.text("name");
     if (body.name.empty()) table.fail("name", "must not be empty");
@@ -200,16 +211,8 @@ void read_bodies(Draft& draft) {
     body.rotation = read_orientation(draft, table);
     read_markers(draft, table, body, centre);
     table.finish();
-    body.triple = static_cast<int>(draft.guess.size()) / 3;
-    for (const Expression& e : body.position) draft.guess.push_back(e);
-    for (const ExpressionVector& director : body.rotation) {
-      for (const Expression& e : director) draft.guess.push_back(e);
-    }
-    draft.mass_names.push_back(body.name);
-    draft.bodies.push_back(std::move(body));
-    draft.masses.push_back(mass_distribution(draft, static_cast<int>(i), mass, centre, J));
-    add_directors(draft, static_cast<int>(i));
-  }
+    add_body(draft, std::move(body), moments_of(mass, centre, J));
+  });
 }
 
 }  // namespace eigentrail

@@ -314,19 +314,16 @@ const std::vector<ConstraintKind>& constraint_kinds() {
 void read_constraints(Draft& draft) {
   for (const ConstraintKind& kind : constraint_kinds()) {
     if (kind.read == nullptr) continue;
-    const std::string name(kind.name);
-    const std::vector<const Table*> all = tables(draft.scene, name);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      TableReader table = draft.reader(*all[i], "[[" + name + "]] " + std::to_string(i + 1));
+    draft.for_each_table(kind.name, [&](TableReader& table, std::size_t i) {
       std::vector<HingeAngle> angles;
       Rows rows = kind.read(draft, table, angles);
-      const std::string label = table.has("name") ? printable(table.text("name")) : numbered(name, i);
+      const std::string label = label_of(table, kind.name, i);
       table.finish();
       const bool taken = !draft.constraint_labels.insert(label).second;
       if (taken) table.fail("name", "another constraint is called '" + label + "' already");
       if (!angles.empty()) draft.joint_angles[label] = std::move(angles);
       draft.add_constraint(kind.name, label, std::move(rows));
-    }
+    });
   }
 }
 

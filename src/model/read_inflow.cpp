@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "eigentrail/core/text.hpp"
+#include "model/beam_builder.hpp"
 
 namespace eigentrail {
 namespace {
@@ -65,18 +66,6 @@ ExpressionVector expressions_of(const std::array<Quantity, 3>& vector) {
   return {vector[0].expression, vector[1].expression, vector[2].expression};
 }
 
-/// Where a place is in the guess.
-ExpressionVector guessed(const Draft& draft, const Place& place) {
-  if (!place.moves()) return expressions_of(place.fixed);
-  ExpressionVector sum;
-  for (const Term& term : place.terms) {
-    const auto first = 3 * static_cast<std::size_t>(term.triple);
-    const Expression weight = term.weight.slot < 0 ? Expression(1.0) : term.weight.expression;
-    sum = sum + weight * ExpressionVector{draft.guess[first], draft.guess[first + 1], draft.guess[first + 2]};
-  }
-  return sum;
-}
-
 InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& rotation) {
   InflowDraft inflow;
   inflow.name = table.text("name");
@@ -133,21 +122,19 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
 std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<ExpressionVector>& rotation) {
   std::vector<InflowDraft> result;
   if (draft.is_left_out(Inflow::name)) return result;
-  const std::vector<const Table*> all = tables(draft.scene, std::string(Inflow::name));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[inflow]] " + std::to_string(i + 1));
+  draft.for_each_table(Inflow::name, [&](TableReader& table, std::size_t) {
     InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));
     check_is_new(table, Inflow::name, inflow.name, result);
     result.push_back(std::move(inflow));
     if (!result.back().annular) draft.inflow_names.push_back(result.back().name);
-  }
+  });
   return result;
 }
 
 void add_annulus(Draft& draft, const TableReader& table, InflowDraft& inflow, Strip& strip,
                  const Expression& width) {
   const ExpressionVector axis = expressions_of(inflow.disc.axis);
-  const ExpressionVector arm = guessed(draft, strip.quarter_chord) - expressions_of(inflow.disc.centre);
+  const ExpressionVector arm = position_of(draft, strip.quarter_chord) - expressions_of(inflow.disc.centre);
   const ExpressionVector outward = arm - dot(arm, axis) * axis;
   const Expression r = sqrt(dot(outward, outward));
   const std::vector<double> inside = draft.check_values(inflow.radius - r);

@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <charconv>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/model/build.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "eigentrail/scene/traced_parameter.hpp"
 #include "model/beside_scene.hpp"
+#include "model/draft.hpp"
+#include "model/family_tables.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_sparse_family.hpp"
 
@@ -17,7 +16,13 @@ constexpr Eigen::Index max_size = limits::matrix_rows;
 constexpr int max_power = limits::matrix_power;
 
 struct FamilyReader {
+  FamilyReader(const Scene& of, const ModelRequest& request)
+      : scene(of),
+        draft(of, request),
+        table(draft.reader(only_table(of, "matrix_family"), "[matrix_family]")) {}
+
   const Scene& scene;
+  Draft draft;
   TableReader table;
   std::size_t n_numbers = 0;
 
@@ -67,6 +72,7 @@ struct FamilyReader {
         if (entry.is_constant()) {
           coefficient(r, c) = entry.evaluate(std::span<const double>());
         } else {
+          draft.check_range(table, key, entry, Range::any);
           polynomial.entries.push_back({power, r, c, entry});
         }
       }
@@ -100,14 +106,11 @@ struct FamilyReader {
   }
 
   std::size_t power_of(const std::string& name, const std::string& key) const {
-    int power = -1;
-    const auto parsed = std::from_chars(name.data(), name.data() + name.size(), power);
-    if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size() || power < 0 ||
-        power > max_power) {
+    const std::optional<int> power = power_in(name);
+    if (!power || *power < 0 || *power > max_power)
       fail("file",
            "dataset /" + key + "/" + name + ": expected a power from 0 to " + std::to_string(max_power));
-    }
-    return static_cast<std::size_t>(power);
+    return static_cast<std::size_t>(*power);
   }
 
   /// The names of the matrices of a group; none if it is absent.
@@ -146,16 +149,6 @@ struct FamilyReader {
                                       static_cast<Eigen::Index>(shape[1]));
   }
 
-  /// Rejects unknown groups: a misspelt one would otherwise count as a matrix that is zero.
-  void reject_unknown_groups(const Hdf5File& file) const {
-    const std::vector<std::string> known = {"M", "C", "K", "A", "E", "state_names"};
-    for (const std::string& name : file.members("/")) {
-      if (std::find(known.begin(), known.end(), name) == known.end()) {
-        fail("file", "unknown '" + name + "' in it; " + suggestion(name, known));
-      }
-    }
-  }
-
   /// `first`: the key of the matrix that gives the size. `constraints`: rows of the matrix are constraints.
   void check_shape(const MatrixPolynomial& polynomial, const std::string& key, Eigen::Index n,
                    const std::string& first, bool constraints) const {
@@ -175,10 +168,8 @@ struct FamilyReader {
 
 /// Index of the parameter whose powers multiply the coefficients: the one that [trace] of the scene names.
 int variable_index(const Scene& scene) {
-  if (const auto index = scene.parameters.index(traced_parameter(scene))) return *index;
-  throw InputError(scene.path +
-                   ": [trace] parameter: a scene with [matrix_family] names here the parameter whose powers "
-                   "multiply the matrices, also when another one is traced");
+  return traced_index(scene, "matrix_family",
+                      "the parameter whose powers multiply the matrices, also when another one is traced");
 }
 
 struct Polynomials {
@@ -228,7 +219,8 @@ Polynomials read_file(FamilyReader& reader) {
       p = polynomials_in(reader, in_memory->second);
     } else {
       const Hdf5File file = open_beside_scene(reader.scene, reader.table);
-      reader.reject_unknown_groups(file);
+      const std::string fault = unknown_member(file, {"M", "C", "K", "A", "E", "state_names"});
+      if (!fault.empty()) reader.fail("file", fault);
       p = polynomials_in(reader, file);
       if (file.has("/state_names")) p.state_names = file.read_texts("/state_names");
     }
@@ -241,7 +233,7 @@ Polynomials read_file(FamilyReader& reader) {
 }
 
 /// The family, if its file has sparse matrices or the scene gives factors of matrices; null otherwise.
-std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, std::set<int>& used) {
+std::unique_ptr<Model> read_if_sparse(FamilyReader& reader) {
   const bool has_factors = reader.table.has("factors");
   if (!reader.table.has("file")) {
     if (has_factors) reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");
@@ -254,7 +246,8 @@ std::unique_ptr<Model> read_if_sparse(FamilyReader& reader, std::set<int>& used)
   try {
     const Hdf5File file = open_beside_scene(reader.scene, reader.table);
     if (!has_factors && !has_sparse_matrices(file)) return nullptr;
-    return read_sparse_family(reader.scene, reader.table, file, variable_index(reader.scene), used);
+    return read_sparse_family(reader.scene, reader.table, file, variable_index(reader.scene),
+                              reader.draft.used);
   } catch (const Hdf5Error& error) {
     reader.fail("file", error.what() + expected_datasets);
   }
@@ -276,32 +269,11 @@ Polynomials read_table(FamilyReader& reader) {
   return p;
 }
 
-ModelDescription describe(Eigen::Index n_coordinates, Eigen::Index n_constraints,
-                          const std::vector<std::string>& names, const Parameters& parameters) {
-  ModelDescription description;
-  for (Eigen::Index i = 0; i < n_coordinates; ++i) {
-    description.coordinate_names.push_back(names.empty() ? "x" + std::to_string(i + 1)
-                                                         : names[static_cast<std::size_t>(i)]);
-    description.coordinate_units.emplace_back("1");
-  }
-  for (Eigen::Index i = 0; i < n_constraints; ++i) {
-    description.constraint_names.push_back("A row " + std::to_string(i + 1));
-  }
-  description.parameters = parameters;
-  return description;
-}
-
 }  // namespace
 
-std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int>& used_elsewhere) {
-  const auto found = tables(scene, "matrix_family");
-  if (found.empty()) throw InputError(scene.path + ": [matrix_family]: is an empty list");
-  if (found.size() > 1) {
-    throw scene_error(scene, found[1]->where, "[matrix_family]: a scene has one of these");
-  }
-  std::set<int> used = used_elsewhere;
-  FamilyReader reader{scene, {scene, *found[0], "[matrix_family]", used}, 0};
-  if (auto sparse = read_if_sparse(reader, used)) return sparse;
+std::unique_ptr<Model> read_matrix_family(const Scene& scene, const ModelRequest& request) {
+  FamilyReader reader(scene, request);
+  if (auto sparse = read_if_sparse(reader)) return sparse;
   Polynomials p = reader.table.has("file") ? read_file(reader) : read_table(reader);
   if (reader.table.has("state_names")) p.state_names = reader.table.texts("state_names");
   reader.table.finish();
@@ -327,12 +299,14 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const std::set<int
   std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one.second == first; });
   for (const auto& [polynomial, key] : all) {
     reader.check_shape(*polynomial, key, n, first, polynomial == &p.A);
-    if (polynomial->coefficients.size() > 1) used.insert(variable);
+    if (polynomial->coefficients.size() > 1) reader.draft.used.insert(variable);
   }
   if (p.M.empty()) p.M = constant(Matrix::Zero(n, n));
-  const Eigen::Index m = p.A.empty() ? 0 : p.A.coefficients[0].rows();
-  ModelDescription description = describe(n, m, p.state_names, scene.parameters);
-  description.unused_parameters = unused_parameters(scene, used);
+  ModelDescription description = describe_states(n, p.state_names);
+  for (Eigen::Index i = 0; !p.A.empty() && i < p.A.coefficients[0].rows(); ++i)
+    description.constraint_names.push_back("A row " + std::to_string(i + 1));
+  description.parameters = scene.parameters;
+  description.unused_parameters = unused_parameters(scene, reader.draft.used);
   return std::make_unique<MatrixFamily>(std::move(description), variable, std::move(p.M), std::move(p.C),
                                         std::move(p.K), std::move(p.A),
                                         p.first_order ? FamilyForm::first_order : FamilyForm::second_order);

@@ -176,33 +176,27 @@ void check_own_name(const Draft& draft, const TableReader& table, const std::str
 /// Reads all [[name]] tables of one element type.
 template <class Element>
 void read_elements(Draft& draft) {
-  const std::vector<const Table*> all = tables(draft.scene, std::string(Element::name));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::string number = numbered(Element::name, i);
-    TableReader table =
-        draft.reader(*all[i], "[[" + std::string(Element::name) + "]] " + std::to_string(i + 1));
+  draft.for_each_table(Element::name, [&](TableReader& table, std::size_t i) {
     Element element;
     FieldReader fields(draft, table);
     Element::fields(element, fields);
-    const std::string label = table.has("name") ? printable(table.text("name")) : number;
+    const std::string label = label_of(table, Element::name, i);
     if (number_of_states<Element>() > 0) check_own_name<Element>(draft, table, label);
     table.finish();
     std::vector<Place> moving;
     ArgumentCollector collector(moving);
     Element::fields(element, collector);
     if (moving.empty()) {
-      throw scene_error(draft.scene, all[i]->where,
+      throw scene_error(draft.scene, draft.begun_where,
                         table.label() + ": joins no moving point; name one in it");
     }
     add_element(draft, std::move(element), label);
-  }
+  });
 }
 
 /// Reads the points. They are read first because everything else refers to them.
 void read_points(Draft& draft) {
-  const std::vector<const Table*> all = tables(draft.scene, "point");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[point]] " + std::to_string(i + 1));
+  draft.for_each_table("point", [&](TableReader& table, std::size_t i) {
     const std::string name = table.text("name");
     if (name.empty()) table.fail("name", "must not be empty");
     if (std::find(draft.points.begin(), draft.points.end(), name) != draft.points.end()) {
@@ -216,7 +210,7 @@ void read_points(Draft& draft) {
     MassDistribution& masses = draft.masses.emplace_back();
     masses.carriers[0] = draft.point_place(static_cast<int>(i));
     masses.mass = draft.quantity_unless_zero(mass);
-  }
+  });
 }
 
 void add_masses(Draft& draft) {

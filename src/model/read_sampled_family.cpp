@@ -1,27 +1,19 @@
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <stdexcept>
 
 #include "core/hdf5_file.hpp"
+#include "core/short_text.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "model/beside_scene.hpp"
+#include "model/draft.hpp"
+#include "model/family_tables.hpp"
 #include "model/sampled_family.hpp"
 #include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
-
-/// Index of the parameter of the samples: the one that [trace] of the scene names.
-int variable_index(const Scene& scene) {
-  if (const auto index = scene.parameters.index(traced_parameter(scene))) return *index;
-  throw InputError(
-      scene.path +
-      ": [trace] parameter: a scene with [sampled_family] names here the parameter of the samples");
-}
 
 /// Factor from the file's unit of the parameter to its SI unit in the scene. A parameter that the scene
 /// declares without a unit has that of the file.
@@ -75,29 +67,14 @@ void check_within(const Scene& scene, const Parameter& variable, int index, cons
                   const std::vector<Vector>& check_at) {
   std::vector<double> samples = data.values;
   for (double& value : samples) value /= variable.factor;
-  for (Vector values : check_at) {
-    scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
-    const std::string fault = outside_samples(variable.name, values[index] / variable.factor, samples);
+  for (const Vector& si : check_at) {
+    const std::string fault = outside_samples(variable.name, si[index] / variable.factor, samples);
     if (!fault.empty()) throw InputError(scene.path + ": [trace]: " + fault);
   }
 }
 
-ModelDescription describe(const SampledData& data, const Parameters& parameters) {
-  ModelDescription description;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(data.size()); ++i) {
-    description.coordinate_names.push_back(data.state_names.empty() ? "x" + std::to_string(i + 1)
-                                                                    : data.state_names[i]);
-    const bool unit = !data.state_units.empty() && !data.state_units[i].empty();
-    description.coordinate_units.push_back(unit ? data.state_units[i] : "1");
-  }
-  description.parameters = parameters;
-  return description;
-}
-
 std::string number(double x) {
-  std::ostringstream text;
-  text << std::setprecision(6) << x;
-  return text.str();
+  return short_text(x, 6);
 }
 
 /// "-20, 31 + 4j": in the unit of the parameter.
@@ -143,17 +120,12 @@ std::vector<std::pair<std::string, std::string>> describe_samples(const SampledD
 
 }  // namespace
 
-std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<int>& used_elsewhere,
-                                           const std::vector<Vector>& check_at) {
-  const auto found = tables(scene, "sampled_family");
-  if (found.empty()) throw InputError(scene.path + ": [sampled_family]: is an empty list");
-  if (found.size() > 1)
-    throw scene_error(scene, found[1]->where, "[sampled_family]: a scene has one of these");
-  const int index = variable_index(scene);
+std::unique_ptr<Model> read_sampled_family(const Scene& scene, const ModelRequest& request) {
+  Draft draft(scene, request);
+  TableReader table = draft.reader(only_table(scene, "sampled_family"), "[sampled_family]");
+  const int index = traced_index(scene, "sampled_family", "the parameter of the samples");
   const Parameter& variable = scene.parameters[static_cast<std::size_t>(index)];
-  std::set<int> used = used_elsewhere;
-  used.insert(index);
-  TableReader table(scene, *found[0], "[sampled_family]", used);
+  draft.used.insert(index);
   SampledData data = read_data(table, scene);
   const double factor = unit_of_values(table, variable, data.parameter_unit);
   for (double& value : data.values) value *= factor;
@@ -162,10 +134,11 @@ std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<in
   if (table.has("degree")) degree = whole_number(table, "degree", 1, highest_degree);
   if (table.has("digits")) data.digits = whole_number(table, "digits", 1, 17);
   table.finish();
-  std::vector<int> unused = unused_parameters(scene, used);
-  check_within(scene, variable, index, data, check_at);
+  std::vector<int> unused = unused_parameters(scene, draft.used);
+  check_within(scene, variable, index, data, draft.check_at);
   std::vector<SamplePiece> pieces = interpolate_samples(data, data.values, kinks, degree);
-  ModelDescription description = describe(data, scene.parameters);
+  ModelDescription description = describe_states(data.size(), data.state_names, data.state_units);
+  description.parameters = scene.parameters;
   description.unused_parameters = std::move(unused);
   description.data = describe_samples(data, pieces, variable);
   return std::make_unique<SampledFamily>(std::move(description), index, data, std::move(pieces));

@@ -1,12 +1,12 @@
 #include "model/read_sparse_family.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "model/family_tables.hpp"
 
 namespace eigentrail {
 namespace {
@@ -39,10 +39,7 @@ class SparseReader {
   void reject_unknown_groups() const {
     std::vector<std::string> known = matrix_names;
     known.emplace_back("state_names");
-    for (const std::string& name : file_.members("/")) {
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        fail("unknown '" + name + "' in it; " + suggestion(name, known));
-    }
+    if (const std::string fault = unknown_member(file_, known); !fault.empty()) fail(fault);
   }
 
   /// Every factor of the scene must have a matrix: a misspelt one would change nothing.
@@ -65,14 +62,12 @@ class SparseReader {
   }
 
   Expression factor(const std::string& path, const std::string& name) {
-    int power = -1;
-    const auto parsed = std::from_chars(name.data(), name.data() + name.size(), power);
-    if (parsed.ec == std::errc() && parsed.ptr == name.data() + name.size()) {
-      if (power < 0 || power > limits::matrix_power)
+    if (const std::optional<int> power = power_in(name)) {
+      if (*power < 0 || *power > limits::matrix_power)
         fail("matrix " + path + ": expected a power from 0 to " + std::to_string(limits::matrix_power));
-      if (power > 0) used_.insert(variable_);
+      if (*power > 0) used_.insert(variable_);
       Expression result = 1.0;
-      for (int i = 0; i < power; ++i) result = result * Expression::of_parameter(variable_);
+      for (int i = 0; i < *power; ++i) result = result * Expression::of_parameter(variable_);
       return result;
     }
     named_.push_back(name);
@@ -193,17 +188,6 @@ Terms negated(Terms terms) {
   return terms;
 }
 
-ModelDescription describe(Eigen::Index n, std::vector<std::string> names, const Parameters& parameters) {
-  ModelDescription description;
-  if (names.empty()) {
-    for (Eigen::Index i = 0; i < n; ++i) names.push_back("x" + std::to_string(i + 1));
-  }
-  description.coordinate_names = std::move(names);
-  description.coordinate_units.assign(static_cast<std::size_t>(n), "1");
-  description.parameters = parameters;
-  return description;
-}
-
 SparseMatrix identity(Eigen::Index n) {
   SparseMatrix result(n, n);
   result.setIdentity();
@@ -244,7 +228,8 @@ std::unique_ptr<Model> read_sparse_family(const Scene& scene, TableReader& table
     table.fail("state_names", "has " + std::to_string(names.size()) + " names for " +
                                   std::to_string(reader.size()) + " coordinates");
   table.finish();
-  ModelDescription description = describe(reader.size(), std::move(names), scene.parameters);
+  ModelDescription description = describe_states(reader.size(), names);
+  description.parameters = scene.parameters;
   description.unused_parameters = unused_parameters(scene, used);
   return std::make_unique<SparseFamily>(std::move(description),
                                         AffinePencil<SparseMatrix>{std::move(M), std::move(C), std::move(K)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/trimmed.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -14,12 +15,6 @@ struct ConditionText {
   std::vector<std::string> arguments;  ///< "wing", "z"
   std::string target;                  ///< "weight"
 };
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 struct QuantityKind {
   std::string_view name, arguments, unit;
@@ -38,20 +33,21 @@ std::string list_of_quantities() {
   return list;
 }
 
-ConditionText split(const TableReader& table, const std::string& text) {
+ConditionText split(const TableReader& table, std::string_view text) {
   const std::size_t equals = text.find('='), open = text.find('('), close = text.find(')');
-  const bool in_order = open < close && close < equals && equals != std::string::npos &&
+  const bool in_order = open < close && close < equals && equals != std::string_view::npos &&
                         trimmed(text.substr(close + 1, equals - close - 1)).empty();
   if (!in_order)
-    table.fail("condition", "expected \"quantity(name) = expression\", found \"" + text +
+    table.fail("condition", "expected \"quantity(name) = expression\", found \"" + std::string(text) +
                                 "\"; quantities are " + list_of_quantities());
-  ConditionText parts{trimmed(text.substr(0, open)), {}, trimmed(text.substr(equals + 1))};
-  std::string inside = text.substr(open + 1, close - open - 1);
-  for (std::size_t comma = inside.find(','); comma != std::string::npos; comma = inside.find(',')) {
-    parts.arguments.push_back(trimmed(inside.substr(0, comma)));
-    inside = inside.substr(comma + 1);
+  ConditionText parts{
+      std::string(trimmed(text.substr(0, open))), {}, std::string(trimmed(text.substr(equals + 1)))};
+  std::string_view inside = text.substr(open + 1, close - open - 1);
+  for (std::size_t comma = inside.find(','); comma != std::string_view::npos; comma = inside.find(',')) {
+    parts.arguments.emplace_back(trimmed(inside.substr(0, comma)));
+    inside.remove_prefix(comma + 1);
   }
-  parts.arguments.push_back(trimmed(inside));
+  parts.arguments.emplace_back(trimmed(inside));
   return parts;
 }
 
@@ -292,8 +288,7 @@ class TrimReader {
       const std::vector<const Table*> all = tables(draft_.scene, std::string(kind.name));
       for (std::size_t i = 0; i < all.size(); ++i) {
         TableReader table(draft_.scene, *all[i], "[[" + std::string(kind.name) + "]]", draft_.used);
-        if ((table.has("name") ? printable(table.text("name")) : numbered(kind.name, i)) == name)
-          return table;
+        if (label_of(table, kind.name, i) == name) return table;
       }
     }
     throw std::logic_error("a constraint without table: " + name);
@@ -328,7 +323,7 @@ class TrimReader {
 
   std::string name_of(const Table& of, std::string_view kind, std::size_t i) {
     TableReader table(draft_.scene, of, "", draft_.used);
-    return table.has("name") ? printable(table.text("name")) : numbered(kind, i);
+    return label_of(table, kind, i);
   }
 
   template <class Element>
@@ -367,13 +362,9 @@ class TrimReader {
 }  // namespace
 
 void read_trims(Draft& draft, const std::vector<InflowDraft>& inflows) {
-  const std::vector<const Table*> all = tables(draft.scene, "trim");
-  if (all.empty()) return;
   TrimReader reader(draft, inflows);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[trim]] " + std::to_string(i + 1));
-    draft.data.trims.push_back(reader.read(table));
-  }
+  draft.for_each_table(
+      "trim", [&](TableReader& table, std::size_t) { draft.data.trims.push_back(reader.read(table)); });
 }
 
 InputError trim_error(const Scene& scene, const std::string& reason) {

@@ -1,12 +1,12 @@
 #include "eigentrail/model/sample_errors.hpp"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "core/gaps.hpp"
 #include "core/orthonormal.hpp"
+#include "core/singular_vectors.hpp"
 #include "model/gap_estimators.hpp"
 #include "model/sample_interpolation.hpp"
 
@@ -62,15 +62,14 @@ RoughPart rough_part(const SamplePiece& piece, Eigen::Index n_entries) {
   const Eigen::Index high = n_entries == 1 ? 2 : std::max<Eigen::Index>(2, n / 4);
   const Matrix polynomials = products_with_polynomials(piece.interpolant);
   const Matrix coefficients = piece.reduced * polynomials;
-  Eigen::JacobiSVD<Matrix> lower(coefficients.leftCols(n - high), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularVectors<Matrix> lower = singular_vectors(Matrix(coefficients.leftCols(n - high)));
   constexpr double same_direction = 1e-13;
-  lower.setThreshold(same_direction);
+  const Eigen::Index rank = (lower.values.array() > same_direction * lower.values[0]).count();
   // With more directions than half of the coefficients, those of errors that are not smooth are among them;
   // as many as there are entries leave nothing.
-  const Eigen::Index main = std::min({(n - high) / 2, lower.rank(), n_entries - 1});
-  const Matrix part = lower.matrixV().leftCols(main) *
-                      lower.singularValues().head(main).cwiseInverse().asDiagonal() *
-                      lower.matrixU().leftCols(main).transpose() * coefficients.rightCols(high);
+  const Eigen::Index main = std::min({(n - high) / 2, rank, n_entries - 1});
+  const Matrix part = lower.V.leftCols(main) * lower.values.head(main).cwiseInverse().asDiagonal() *
+                      lower.U.leftCols(main).transpose() * coefficients.rightCols(high);
   return {polynomials.rightCols(high) - polynomials.leftCols(n - high) * part,
           1.0 - static_cast<double>(main) / static_cast<double>(n_entries)};
 }

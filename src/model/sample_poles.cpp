@@ -1,9 +1,10 @@
 #include "model/sample_poles.hpp"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "core/singular_vectors.hpp"
 
 namespace eigentrail {
 namespace {
@@ -68,8 +69,7 @@ Vector least_quotient(const Matrix& differences, const Matrix& powers) {
                               .triangularView<Eigen::Lower>()
                               .solve(triangle_of(differences).transpose())
                               .transpose();
-  const Eigen::JacobiSVD<Matrix> svd(quotient, Eigen::ComputeFullV);
-  return scale.triangularView<Eigen::Upper>().solve(svd.matrixV().rightCols(1));
+  return scale.triangularView<Eigen::Upper>().solve(right_singular_vectors(quotient).V.rightCols(1));
 }
 
 /// Roots of q_0 + q_1 x + q_2 x^2.

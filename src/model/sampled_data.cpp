@@ -10,6 +10,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "model/family_tables.hpp"
 #include "model/sampled_family.hpp"
 
 namespace eigentrail {
@@ -146,10 +147,7 @@ class SampleReader {
         "parameter",        "M",    "C", "K", "E", "A", "A_error", "state_names", "state_units",
         "derivative_order", "frame"};
     known.insert(known.end(), kept.begin(), kept.end());
-    for (const std::string& name : file_.members("/")) {
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        fail("unknown '" + name + "' in it; " + suggestion(name, known));
-    }
+    if (const std::string fault = unknown_member(file_, known); !fault.empty()) fail(fault);
   }
 
   void read_matrix_order() {

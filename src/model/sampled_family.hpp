@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "core/hdf5_file.hpp"
+#include "eigentrail/model/build.hpp"
 #include "eigentrail/model/matrix_model.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
-#include "eigentrail/scene/scene.hpp"
 #include "model/sample_interpolation.hpp"
 
 namespace eigentrail {
@@ -46,9 +46,8 @@ class SampledFamily final : public MatrixModel {
 /// Reads samples as read_samples does with a path.
 SampledData read_samples(const Hdf5File& file);
 
-/// Reads [sampled_family] of a scene; `check_at`: values of the parameters (declared units) that must lie
-/// among the samples. Throws InputError for every fault in it.
-std::unique_ptr<Model> read_sampled_family(const Scene& scene, const std::set<int>& used_elsewhere,
-                                           const std::vector<Vector>& check_at);
+/// Reads [sampled_family] of a scene; the values of the parameters at which the request has it checked must
+/// lie among the samples. Throws InputError for every fault in it.
+std::unique_ptr<Model> read_sampled_family(const Scene& scene, const ModelRequest& request);
 
 }  // namespace eigentrail

@@ -6,21 +6,6 @@
 #include "model/gauss_points.hpp"
 
 namespace eigentrail {
-namespace {
-
-bool is_number(const Expression& e, double value) {
-  return e.is_constant() && e.evaluate(std::span<const double>()) == value;
-}
-
-/// The directors of a body times the components of a direction in its axes.
-Combination on_directors(const BodyDraft& body, const ExpressionVector& along) {
-  Combination sum;
-  for (int i = 0; i < 3; ++i) sum.emplace_back(body.triple + 1 + i, along[static_cast<std::size_t>(i)]);
-  return sum;
-}
-
-}  // namespace
-
 Combination sum_of(const std::vector<std::pair<Expression, Combination>>& parts) {
   Combination sum;
   for (const auto& [factor, part] : parts) {
@@ -35,15 +20,6 @@ Combination sum_of(const std::vector<std::pair<Expression, Combination>>& parts)
     }
   }
   return sum;
-}
-
-Place place_of(Draft& draft, const Combination& combination) {
-  Place place;
-  for (const auto& [triple, weight] : combination) {
-    if (is_number(weight, 0.0)) continue;
-    place.terms.push_back({triple, is_number(weight, 1.0) ? Quantity() : draft.quantity(weight)});
-  }
-  return place;
 }
 
 std::vector<SpanPoint> points_of_beam(const Draft& draft, const BeamDraft& beam, int n,
@@ -73,15 +49,15 @@ std::vector<SpanPoint> points_of_beam(const Draft& draft, const BeamDraft& beam,
 
 std::vector<SpanPoint> points_of_body(const Draft& draft, const BodyLine& line, int n,
                                       const std::array<double, 2>& extent) {
-  const BodyDraft& body = draft.bodies[static_cast<std::size_t>(line.body)];
   const ExpressionVector span = line.tip - line.root;
   const Expression length = sqrt(dot(span, span));
   std::vector<SpanPoint> points;
   for (const auto& [at, weight] : gauss_points(n)) {
     const double share = extent[0] + at * (extent[1] - extent[0]);
-    Combination position = on_directors(body, line.root + Expression(share) * span);
-    position.emplace_back(body.triple, 1.0);
-    points.push_back({share, std::move(position), on_directors(body, line.y), on_directors(body, line.z),
+    Combination position = draft.on_directors(line.body, line.root + Expression(share) * span);
+    position.emplace_back(draft.bodies[static_cast<std::size_t>(line.body)].triple, 1.0);
+    points.push_back({share, std::move(position), draft.on_directors(line.body, line.y),
+                      draft.on_directors(line.body, line.z),
                       Expression(weight * (extent[1] - extent[0])) * length});
   }
   return points;

@@ -5,12 +5,8 @@
 
 namespace eigentrail {
 
-/// Sum of weights times triples of coordinates: a moving vector before it is a Place.
-using Combination = std::vector<std::pair<int, Expression>>;
-
 /// Sum of a factor times each of the combinations.
 Combination sum_of(const std::vector<std::pair<Expression, Combination>>& parts);
-Place place_of(Draft& draft, const Combination& combination);
 
 /// A point of such a line, with the axes of the section there and the length that it stands for.
 struct SpanPoint {

@@ -65,9 +65,7 @@ int read_strip_count(TableReader& table, int otherwise) {
 std::vector<std::pair<BladeElement, std::string>> read_strips(
     Draft& draft, const std::optional<ExpressionVector>& rotation) {
   std::vector<std::pair<BladeElement, std::string>> result;
-  const std::vector<const Table*> all = tables(draft.scene, std::string(BladeElement::name));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[blade_element]] " + std::to_string(i + 1));
+  draft.for_each_table(BladeElement::name, [&](TableReader& table, std::size_t i) {
     const Blade blade = read_blade(draft, table);
     const Expression chord = draft.read_number(table, "chord", "m", Range::non_negative);
     const Expression density = draft.read_number(table, "density", "kg/m^3", Range::non_negative, 1.225);
@@ -78,8 +76,7 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
     const ExpressionVector inflow = draft.read_vector(table, "inflow", "m/s", Range::any, ExpressionVector{});
     const bool stands = draft.stands(draft.bodies[static_cast<std::size_t>(blade.body)].triple);
     if (draft.rotor && !stands) check_axial(draft, table, inflow);
-    const std::string label =
-        table.has("name") ? printable(table.text("name")) : numbered(BladeElement::name, i);
+    const std::string label = label_of(table, BladeElement::name, i);
     table.finish();
     const ExpressionVector span = blade.tip - blade.root;
     const Expression length = sqrt(dot(span, span));
@@ -101,7 +98,7 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
       strip.pitch = draft.quantity(pitch);
       result.emplace_back(strip, label + ", strip " + std::to_string(++number));
     }
-  }
+  });
   return result;
 }
 

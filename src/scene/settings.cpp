@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/trimmed.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/units.hpp"
@@ -66,13 +67,9 @@ ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings
   ChangedScene changed{std::move(scene), {}};
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
-    const auto trimmed = [](std::string text) {
-      text.erase(0, text.find_first_not_of(' '));
-      text.erase(text.find_last_not_of(' ') + 1);
-      return text;
-    };
-    const std::string name = trimmed(setting.substr(0, equals));
-    const std::string value = equals == std::string::npos ? "" : trimmed(setting.substr(equals + 1));
+    const std::string_view text = setting;
+    const std::string name(trimmed(text.substr(0, equals), " "));
+    const std::string value(equals == std::string::npos ? "" : trimmed(text.substr(equals + 1), " "));
     if (name.empty() || value.empty())
       throw InputError(std::string(option) + setting + ": expected NAME=VALUE, such as drag=20");
     const std::string label = std::string(option) + name;

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/trimmed.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 std::string_view line_of(std::string_view text, int line) {
   for (int i = 1; i < line; ++i) {

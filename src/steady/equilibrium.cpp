@@ -173,7 +173,7 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
   const auto error_oriented = [&](const ErrorOrientedOptions& how) {
     return [&, how](Vector& v) { return solve_error_oriented(problem, n, how, v); };
   };
-  const auto load_steps = [&](Vector& v) { return solve_in_load_steps(problem, n, {}, v); };
+  const auto load_steps = [&](Vector& v) { return solve_in_load_steps(problem, n, v); };
   const int first = std::min(first_iterations, options.max_iterations);
   if (!options.relax) return large ? error_oriented({.least_damping = 1.0})(u) : kinsol(first)(u);
   std::vector<std::function<NonlinearResult(Vector&)>> turns;
@@ -425,9 +425,7 @@ Equilibrium solve_equilibrium(const Model& model, const Vector& parameters, cons
   Vector reactions;
   // Approximate rest may suffice as a guess, and with circulatory forces there may be no state of rest.
   for (const double rest : {1e-2, 1e-5, 1e-8}) {
-    RelaxationOptions relaxation;
-    relaxation.tolerance = rest;
-    const RelaxationResult relaxed_guess = relax(model, parameters, relaxation, rested, reactions, counts);
+    const RelaxationResult relaxed_guess = relax(model, parameters, rest, rested, reactions, counts);
     if (!relaxed_guess.unmet.empty()) {
       result.report.message +=
           "; no configuration near the starting guess meets all constraints: in the closest one "

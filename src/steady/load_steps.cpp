@@ -8,6 +8,10 @@
 namespace eigentrail {
 namespace {
 
+/// Share of the load in the first step; a shorter step than the least one does not lead to a solution.
+constexpr double first_share = 0.05, least_share = 1e-4;
+/// Newton iterations of all steps together.
+constexpr int most_load_iterations = 200;
 /// Newton iterations in one step, of which the first shows how good the prediction is; more mean that it is
 /// too long.
 constexpr int most_in_one_step = 6;
@@ -16,6 +20,8 @@ constexpr int few_iterations = 3;
 constexpr double growth = 2.0;
 /// Accuracy of places on the way: what is left there is corrected with the next one.
 constexpr double on_the_way = 1e-5;
+/// Corrections at the whole load are shorter than this.
+constexpr double at_the_end = 1e-8;
 
 /// A place on the way, with its slope.
 struct Place {
@@ -33,8 +39,7 @@ Vector predicted(const std::optional<Place>& before, const Place& last, double t
 
 }  // namespace
 
-NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Index measured,
-                                    const LoadStepOptions& options, Vector& u) {
+NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Index measured, Vector& u) {
   NonlinearResult result;
   Vector load;
   Place last{0.0, u, {}};
@@ -49,9 +54,9 @@ NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Inde
   }
   std::optional<Place> before;
   NonlinearProblem held = problem;
-  double step = options.first_step;
+  double step = first_share;
   while (last.t < 1.0) {
-    if (step < options.least_step || result.iterations >= options.max_iterations) {
+    if (step < least_share || result.iterations >= most_load_iterations) {
       result.message = "no solution beyond " + std::to_string(last.t) + " of the load";
       return result;
     }
@@ -63,7 +68,7 @@ NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Inde
       f -= (1.0 - next.t) * load;
       return true;
     };
-    const double tolerance = next.t < 1.0 ? std::max(on_the_way, options.tolerance) : options.tolerance;
+    const double tolerance = next.t < 1.0 ? on_the_way : at_the_end;
     const NonlinearResult found =
         solve_error_oriented(held, measured, {tolerance, most_in_one_step, 1.0}, next.u);
     result.iterations += std::max(1, found.iterations);

@@ -14,16 +14,8 @@
 
 namespace eigentrail {
 
-struct LoadStepOptions {
-  double tolerance = 1e-8;   ///< converged if a correction is shorter, > 0
-  int max_iterations = 200;  ///< of Newton's method, all steps together; >= 1
-  double first_step = 0.05;  ///< in (0, 1]
-  double least_step = 1e-4;  ///< a shorter one does not lead to a solution, > 0
-};
-
 /// Solves from u in place; `problem.f_scale` is not used. Only the first `measured` unknowns, times u_scale,
 /// count in lengths. After a failure u is the last place.
-NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Index measured,
-                                    const LoadStepOptions& options, Vector& u);
+NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Index measured, Vector& u);
 
 }  // namespace eigentrail

@@ -78,19 +78,6 @@ EvaluationFault trim_at(const Model& model, const Path& at, TrimDerivatives& tri
   return model.n_trims() == 0 ? EvaluationFault() : model.trim_derivatives(at, trim, counts);
 }
 
-/// Least-squares multipliers (Eq. 15) at given x.
-EvaluationFault estimate_multipliers(const Model& model, const Vector& parameters, Equilibrium& at,
-                                     EvaluationCounts& counts) {
-  at.lambda = model.first_multipliers(parameters);
-  const Path path{parameters, at.x, at.lambda};
-  SteadyResidual residual;
-  if (auto fault = model.residual(path, 0, residual, counts)) return fault;
-  if (auto fault = model.linearize(path, 0, at.linearization, counts)) return fault;
-  at.lambda.head(model.n_constraints()) =
-      ConstraintFactorization(at.linearization.A[0]).transposed_pseudo_inverse_times(-residual.force.col(0));
-  return {};
-}
-
 }  // namespace
 
 Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vector parameters, int traced,
@@ -106,9 +93,13 @@ Equilibrium solve_equilibrium_on(const PathPlane& plane, const Model& model, Vec
   Vector force, constraint, dx, dl;
   TrimDerivatives trim;
   parameters[traced] = p;
-  if (lambda.size() != model.n_multipliers() && estimate_multipliers(model, parameters, result, counts)) {
-    result.status = SteadyStatus::not_finite;
-    return result;
+  if (lambda.size() != model.n_multipliers()) {
+    const Equilibrium rest = equilibrium_at_rest(model, parameters, x, counts);
+    result.lambda = rest.lambda;
+    if (rest.status != SteadyStatus::converged) {
+      result.status = SteadyStatus::not_finite;
+      return result;
+    }
   }
   const double target = plane(x, result.lambda, p);
   for (int i = 0; i < options.max_iterations; ++i) {

@@ -1,9 +1,10 @@
 #include "steady/redundancy.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "core/singular_vectors.hpp"
 
 namespace eigentrail {
 namespace {
@@ -55,10 +56,9 @@ class Curvature {
 
 /// The combinations of the redundant ones among `dependences` (m x d) on which the curvature depends.
 Matrix curved(const Matrix& curvatures, const Matrix& dependences) {
-  const Eigen::JacobiSVD<Matrix> svd(curvatures, Eigen::ComputeThinV);
-  const Vector& sizes = svd.singularValues();
-  const Eigen::Index count = (sizes.array() > half_of_digits).count();
-  return dependences * svd.matrixV().leftCols(count);
+  const SingularVectors<Matrix> svd = right_singular_vectors(curvatures);
+  const Eigen::Index count = (svd.values.array() > half_of_digits).count();
+  return dependences * svd.V.leftCols(count);
 }
 
 /// Names of the constraints whose reactions are not unique and change the stiffness of the allowed motions,

@@ -15,6 +15,9 @@ namespace eigentrail {
 namespace {
 
 constexpr int most_projections = 50;
+/// Steps, each of which costs a factorization of A and of the tangent stiffness.
+constexpr int most_relaxations = 2000;
+constexpr double longest_move = 0.2;   ///< longest step, in units of the largest coordinate
 constexpr double on_manifold = 1e-10;  ///< largest |c| relative to |A row| times the length
 /// Projections go on below it as long as each reduces c to this share: the rank of constraints that are
 /// dependent only on the manifold shows at rounding.
@@ -186,25 +189,25 @@ Vector downhill_step(const RelaxedPlace& place, double scale, double& delta) {
 
 }  // namespace
 
-RelaxationResult relax(const Model& model, const Vector& parameters, const RelaxationOptions& options,
-                       Vector& x, Vector& lambda, EvaluationCounts& counts) {
+RelaxationResult relax(const Model& model, const Vector& parameters, double tolerance, Vector& x,
+                       Vector& lambda, EvaluationCounts& counts) {
   Relaxation relaxation(model, parameters, counts);
   const double length = positive_or_one(x.lpNorm<Eigen::Infinity>());
   if (!relaxation.project_from_guess(x, length)) return {false, relaxation.unmet()};
   std::optional<RelaxedPlace> here = relaxation.at(x);
   double delta = first_delta;
   double largest_force = 0.0;
-  for (int i = 0; here && i < options.max_steps; ++i) {
+  for (int i = 0; here && i < most_relaxations; ++i) {
     x = here->x;
     lambda = here->lambda;
     // Relative to the largest force so far: without constraints the forces themselves vanish at rest.
     largest_force = std::max(largest_force, here->force);
-    if (here->pull.norm() <= options.tolerance * largest_force) return {true, {}};
+    if (here->pull.norm() <= tolerance * largest_force) return {true, {}};
     const double scale = positive_or_one(here->linearization.K[0].largest_entry());
     Vector step = downhill_step(*here, scale, delta);
     const double size = step.lpNorm<Eigen::Infinity>();
     if (!(size > 0.0)) return {};
-    step *= std::min(1.0, options.longest_move * length / size);
+    step *= std::min(1.0, longest_move * length / size);
     const Vector move = here->constraints.null_basis() * step;
     Vector ahead = here->x + move;
     std::optional<RelaxedPlace> there;

@@ -115,7 +115,7 @@ length = 1.5
   const Vector parameters = setting.scene.parameters.declared_values();
   Vector x = setting.model->initial_guess(parameters);
   Vector lambda;
-  ASSERT_TRUE(relax(*setting.model, parameters, {}, x, lambda, counts).at_rest);
+  ASSERT_TRUE(relax(*setting.model, parameters, 1e-8, x, lambda, counts).at_rest);
   EXPECT_NEAR(x[2], -1.5, 1e-6);
   EXPECT_NEAR(x.head(2).norm(), 0.0, 1e-6);
   ASSERT_EQ(lambda.size(), 1);
@@ -143,7 +143,7 @@ TEST(Relaxation, WithoutAnEquilibriumDoesNotComeToRest) {
   const Vector parameters = setting.scene.parameters.declared_values();
   Vector x = setting.model->initial_guess(parameters);
   Vector lambda;
-  EXPECT_FALSE(relax(*setting.model, parameters, {}, x, lambda, counts).at_rest);
+  EXPECT_FALSE(relax(*setting.model, parameters, 1e-8, x, lambda, counts).at_rest);
 }
 
 }  // namespace

@@ -15,12 +15,6 @@
 
 namespace eigentrail {
 
-struct RelaxationOptions {
-  int max_steps = 2000;     ///< >= 1; each step costs a factorization of A and of the tangent stiffness
-  double tolerance = 1e-8;  ///< at rest if |Q2^T (f - A^T lambda)| <= tolerance times the largest |f| so far
-  double longest_move = 0.2;  ///< longest step, in units of the largest coordinate, > 0
-};
-
 struct [[nodiscard]] RelaxationResult {
   bool at_rest = false;
   /// If no configuration meets the constraints: the constraint with the largest error in the closest
@@ -28,8 +22,9 @@ struct [[nodiscard]] RelaxationResult {
   std::string unmet;
 };
 
-/// Relaxes x from any guess. On return `lambda` holds the least-squares multipliers at x.
-RelaxationResult relax(const Model& model, const Vector& parameters, const RelaxationOptions& options,
-                       Vector& x, Vector& lambda, EvaluationCounts& counts);
+/// Relaxes x from any guess, until |Q2^T (f - A^T lambda)| <= tolerance times the largest |f| on the way. On
+/// return `lambda` holds the least-squares multipliers at x.
+RelaxationResult relax(const Model& model, const Vector& parameters, double tolerance, Vector& x,
+                       Vector& lambda, EvaluationCounts& counts);
 
 }  // namespace eigentrail

@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "model/element.hpp"
-#include "model/polar.hpp"
+#include "model/tabulated_factor.hpp"
 
 namespace eigentrail {
 
@@ -35,6 +35,12 @@ struct RotorDisc {
   std::array<Quantity, 3> centre, axis;
   std::array<Quantity, 3> x, y;  ///< directions in the disc, divided by its radius, 1/m
   Quantity blades;               ///< number of blades for which a section stands
+};
+
+/// Lift, drag and moment coefficients of an airfoil over the angle of attack, from a table. Those that it
+/// does not have are null: zero.
+struct Polar {
+  std::shared_ptr<const TabulatedFactor> lift, drag, moment;
 };
 
 struct AirSection {
@@ -106,10 +112,11 @@ struct AirSection {
     return value / sqrt(1.0 - flow.speed_squared() / (sound * sound));
   }
 
-  /// A coefficient of the table for a downwash.
+  /// A coefficient of the polar for a downwash.
   template <class Scalar>
-  Scalar coefficient(const PolarCurve& curve, const AirFlow<Scalar>& flow, const Scalar& downwash) const {
-    return Polar::value(curve, angle_of(downwash, flow.forward));
+  Scalar coefficient(const std::shared_ptr<const TabulatedFactor>& of_polar, const AirFlow<Scalar>& flow,
+                     const Scalar& downwash) const {
+    return of_polar ? apply(*of_polar, angle_of(downwash, flow.forward)) : Scalar(0.0);
   }
 
   /// Density times circulation times width that a downwash causes, kg/s: 1/2 rho c a (downwash cos alpha_0 -

@@ -1,9 +1,9 @@
 #include "model/multiblade/read_bladed_rotor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "eigentrail/core/text.hpp"
+#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -14,20 +14,17 @@ constexpr double exactly_on_axis = 1e-12;  ///< distance from the axis in m, and
 
 int read_blade_count(TableReader& table) {
   const Expression blades = table.expression("blades");
-  const double n = blades.is_constant() ? blades.evaluate(std::span<const double>()) : NAN;
-  if (n == 1.0 || n == 2.0) {
+  for (const double few : {1.0, 2.0}) {
+    if (!is_number(blades, few)) continue;
     table.fail(
         "blades",
-        "expected at least 3, found " + exact_text(n) +
+        "expected at least 3, found " + exact_text(few) +
             ": the inertia of one or two blades differs along and across them, so that seen from the "
             "support coefficients change with the azimuth in any coordinates, and averaging them would "
             "be wrong; on a support that is the same in all directions describe the whole rotor in the "
             "turning frame, without [rotor]");
   }
-  if (!(n >= fewest_blades) || n > most_blades || n != std::floor(n))
-    table.fail("blades", "expected a whole number from " + std::to_string(fewest_blades) + " to " +
-                             std::to_string(most_blades));
-  return static_cast<int>(n);
+  return whole_number(table, "blades", fewest_blades, most_blades);
 }
 
 /// Marks the triples of the point, body or beam with this name.

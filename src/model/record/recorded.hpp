@@ -8,11 +8,11 @@
 #include <Eigen/Core>
 
 #include "eigentrail/core/series.hpp"
+#include "model/record/record.hpp"
 
 namespace eigentrail {
 
 class Recorder;
-class SmoothFunction;
 
 /// A literal of the source, or the result of an operation of a recorder.
 class Recorded {
@@ -30,41 +30,44 @@ class Recorded {
   Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
   Recorded& operator/=(const Recorded& b) { return *this = *this / b; }
 
-  // Literals are computed at once. Sums with zero and products with zero or one are no operations. The
-  // functions below throw std::logic_error if all their arguments are literals.
+  /// An operation on values of which one at least is recorded; else throws std::logic_error.
+  static Recorded of(Operator op, const Recorded& x);
+  static Recorded of(Operator op, const Recorded& a, const Recorded& b);
+
+  // Literals are computed at once. Sums with zero and products with zero or one are no operations.
   friend Recorded operator+(const Recorded& a, const Recorded& b);
   friend Recorded operator-(const Recorded& a, const Recorded& b);
   friend Recorded operator*(const Recorded& a, const Recorded& b);
   friend Recorded operator/(const Recorded& a, const Recorded& b);
   friend Recorded operator-(const Recorded& a);
 
+  friend Recorded sqrt(const Recorded& x) { return of(Operator::sqrt, x); }
+  friend Recorded exp(const Recorded& x) { return of(Operator::exp, x); }
+  friend Recorded log(const Recorded& x) { return of(Operator::log, x); }
+  friend Recorded sin(const Recorded& x) { return of(Operator::sin, x); }
+  friend Recorded cos(const Recorded& x) { return of(Operator::cos, x); }
+  friend Recorded tan(const Recorded& x) { return sin(x) / cos(x); }
+  friend Recorded sinh(const Recorded& x) { return of(Operator::sinh, x); }
+  friend Recorded cosh(const Recorded& x) { return of(Operator::cosh, x); }
+  friend Recorded tanh(const Recorded& x) { return of(Operator::tanh, x); }
+  friend Recorded asin(const Recorded& x) { return of(Operator::asin, x); }
+  friend Recorded acos(const Recorded& x) { return of(Operator::acos, x); }
+  friend Recorded atan(const Recorded& x) { return of(Operator::atan, x); }
+
+  /// x^y for x > 0. If y is constant along the path and an integer with |y| <= 64, for every x.
+  friend Recorded pow(const Recorded& x, const Recorded& y) { return of(Operator::power, x, y); }
+
+  friend Recorded min(const Recorded& a, const Recorded& b) { return of(Operator::min, a, b); }
+  friend Recorded max(const Recorded& a, const Recorded& b) { return of(Operator::max, a, b); }
+  /// 1 for x >= 0, else 0. Constant on either side.
+  friend Recorded step(const Recorded& x) { return of(Operator::step, x); }
+  friend Recorded abs(const Recorded& x) { return (2.0 * step(x) - 1.0) * x; }
+
  private:
   Recorder* recorder_ = nullptr;
   int node_ = -1;
   double literal_ = 0.0;
 };
-
-Recorded sqrt(const Recorded& x);
-Recorded exp(const Recorded& x);
-Recorded log(const Recorded& x);
-Recorded sin(const Recorded& x);
-Recorded cos(const Recorded& x);
-Recorded tan(const Recorded& x);
-Recorded sinh(const Recorded& x);
-Recorded cosh(const Recorded& x);
-Recorded tanh(const Recorded& x);
-Recorded asin(const Recorded& x);
-Recorded acos(const Recorded& x);
-Recorded atan(const Recorded& x);
-
-/// x^y for x > 0. If y is constant along the path and an integer with |y| <= 64, for every x.
-Recorded pow(const Recorded& x, const Recorded& y);
-
-Recorded abs(const Recorded& x);
-Recorded min(const Recorded& a, const Recorded& b);
-Recorded max(const Recorded& a, const Recorded& b);
-/// 1 for x >= 0, else 0. Constant on either side.
-Recorded step(const Recorded& x);
 
 /// Angle (rad) of the vector (cosine, sine), as the function of series of this name.
 Recorded angle_of(const Recorded& sine, const Recorded& cosine);

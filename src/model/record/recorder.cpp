@@ -96,29 +96,29 @@ Recorder* recorder_of(const Recorded& a, const Recorded& b) {
   return a.recorder() != nullptr ? a.recorder() : b.recorder();
 }
 
-/// A function of values of which one at least is recorded.
-Recorded of(Operator op, const Recorded& x) {
+}  // namespace
+
+Recorded Recorded::of(Operator op, const Recorded& x) {
   if (x.recorder() == nullptr) throw std::logic_error("Recorded: a function of a literal");
   return x.recorder()->operation(op, x);
 }
-Recorded of(Operator op, const Recorded& a, const Recorded& b) {
+
+Recorded Recorded::of(Operator op, const Recorded& a, const Recorded& b) {
   Recorder* const recorder = recorder_of(a, b);
   if (recorder == nullptr) throw std::logic_error("Recorded: a function of literals");
   return recorder->operation(op, a, b);
 }
 
-}  // namespace
-
 Recorded operator+(const Recorded& a, const Recorded& b) {
   if (a.is_literal(0.0)) return b;
   if (b.is_literal(0.0)) return a;
-  return recorder_of(a, b) == nullptr ? a.literal() + b.literal() : of(Operator::add, a, b);
+  return recorder_of(a, b) == nullptr ? a.literal() + b.literal() : Recorded::of(Operator::add, a, b);
 }
 
 Recorded operator-(const Recorded& a, const Recorded& b) {
   if (a.is_literal(0.0)) return -b;
   if (b.is_literal(0.0)) return a;
-  return recorder_of(a, b) == nullptr ? a.literal() - b.literal() : of(Operator::subtract, a, b);
+  return recorder_of(a, b) == nullptr ? a.literal() - b.literal() : Recorded::of(Operator::subtract, a, b);
 }
 
 Recorded operator*(const Recorded& a, const Recorded& b) {
@@ -127,73 +127,21 @@ Recorded operator*(const Recorded& a, const Recorded& b) {
   if (b.is_literal(1.0)) return a;
   if (a.is_literal(-1.0)) return -b;
   if (b.is_literal(-1.0)) return -a;
-  return recorder_of(a, b) == nullptr ? a.literal() * b.literal() : of(Operator::multiply, a, b);
+  return recorder_of(a, b) == nullptr ? a.literal() * b.literal() : Recorded::of(Operator::multiply, a, b);
 }
 
 Recorded operator/(const Recorded& a, const Recorded& b) {
   if (a.is_literal(0.0) && b.recorder() != nullptr) return 0.0;
   if (b.is_literal(1.0)) return a;
-  return recorder_of(a, b) == nullptr ? a.literal() / b.literal() : of(Operator::divide, a, b);
+  return recorder_of(a, b) == nullptr ? a.literal() / b.literal() : Recorded::of(Operator::divide, a, b);
 }
 
 Recorded operator-(const Recorded& a) {
-  return a.recorder() == nullptr ? Recorded(-a.literal()) : of(Operator::negate, a);
-}
-
-Recorded sqrt(const Recorded& x) {
-  return of(Operator::sqrt, x);
-}
-Recorded exp(const Recorded& x) {
-  return of(Operator::exp, x);
-}
-Recorded log(const Recorded& x) {
-  return of(Operator::log, x);
-}
-Recorded sin(const Recorded& x) {
-  return of(Operator::sin, x);
-}
-Recorded cos(const Recorded& x) {
-  return of(Operator::cos, x);
-}
-Recorded tan(const Recorded& x) {
-  return sin(x) / cos(x);
-}
-Recorded sinh(const Recorded& x) {
-  return of(Operator::sinh, x);
-}
-Recorded cosh(const Recorded& x) {
-  return of(Operator::cosh, x);
-}
-Recorded tanh(const Recorded& x) {
-  return of(Operator::tanh, x);
-}
-Recorded asin(const Recorded& x) {
-  return of(Operator::asin, x);
-}
-Recorded acos(const Recorded& x) {
-  return of(Operator::acos, x);
-}
-Recorded atan(const Recorded& x) {
-  return of(Operator::atan, x);
-}
-Recorded pow(const Recorded& x, const Recorded& y) {
-  return of(Operator::power, x, y);
-}
-Recorded min(const Recorded& a, const Recorded& b) {
-  return of(Operator::min, a, b);
-}
-Recorded max(const Recorded& a, const Recorded& b) {
-  return of(Operator::max, a, b);
-}
-Recorded step(const Recorded& x) {
-  return of(Operator::step, x);
-}
-Recorded abs(const Recorded& x) {
-  return (2.0 * step(x) - 1.0) * x;
+  return a.recorder() == nullptr ? Recorded(-a.literal()) : Recorded::of(Operator::negate, a);
 }
 
 Recorded angle_of(const Recorded& sine, const Recorded& cosine) {
-  const Recorded turn = of(Operator::leading_angle, sine, cosine);
+  const Recorded turn = Recorded::of(Operator::leading_angle, sine, cosine);
   const Recorded c = cos(turn);
   const Recorded s = sin(turn);
   return turn + atan((sine * c - cosine * s) / (cosine * c + sine * s));

@@ -33,10 +33,6 @@ void add_block(MatrixSum& to, const ElementPlane& rows, const ElementPlane& colu
   }
 }
 
-bool is_absent(const Expression& factor) {
-  return factor.is_constant() && factor.evaluate(std::span<const double>()) == 0.0;
-}
-
 /// An element between two nodes along one freedom: stiffness k [1, -1; -1, 1], inertia m [2, 1; 1, 2] / 6.
 void add_rod(RotorDraft& rotor, const ShaftDraft& shaft, const NodeCoordinates& left,
              const NodeCoordinates& right, NodeFreedom freedom, const Expression& stiffness,
@@ -97,16 +93,16 @@ void add_element(RotorDraft& rotor, const ShaftDraft& shaft, const SegmentMatric
   for (const ElementPlane* plane : {&x, &y}) {
     add_block(rotor.sum(RotorEffect::shaft_mass).M, *plane, *plane, element.inertia, 1.0, 1.0);
     add_block(rotor.sum(RotorEffect::shaft).K, *plane, *plane, element.stiffness, 1.0, 1.0);
-    if (!is_absent(shaft.alpha)) add_block(damping.C, *plane, *plane, element.inertia, shaft.alpha, 1.0);
-    if (!is_absent(shaft.beta)) add_block(damping.C, *plane, *plane, element.stiffness, shaft.beta, 1.0);
-    if (!is_absent(shaft.internal))
+    if (!is_number(shaft.alpha, 0.0)) add_block(damping.C, *plane, *plane, element.inertia, shaft.alpha, 1.0);
+    if (!is_number(shaft.beta, 0.0)) add_block(damping.C, *plane, *plane, element.stiffness, shaft.beta, 1.0);
+    if (!is_number(shaft.internal, 0.0))
       add_block(internal.C, *plane, *plane, element.stiffness, shaft.internal, 1.0);
   }
   MatrixSum& gyroscopic = rotor.sum(RotorEffect::gyroscopic).C;
   add_block(gyroscopic, x, y, element.rotation, shaft.speed, 2.0);
   add_block(gyroscopic, y, x, element.rotation, shaft.speed, -2.0);
   const Expression circulatory = shaft.speed * shaft.internal;
-  if (!is_absent(circulatory)) {
+  if (!is_number(circulatory, 0.0)) {
     add_block(internal.K, x, y, element.stiffness, circulatory, 1.0);
     add_block(internal.K, y, x, element.stiffness, circulatory, -1.0);
   }

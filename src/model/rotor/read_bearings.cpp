@@ -108,21 +108,16 @@ std::optional<CoefficientTable> read_columns(RotorDraft& rotor, TableReader& tab
   const Expression argument = table.has("over")
                                   ? rotor.draft.read_number(table, "over", std::nullopt, Range::any)
                                   : rotor.shafts[place.shaft].speed;
-  const CsvTable csv = read_csv(rotor.draft.scene, table, "table");
   TableColumns known = bearing_columns(table.has("over") ? "" : "rad/s");
   if (table.has("degree")) known.degree = whole_number(table, "degree", 1, highest_degree);
   if (table.has("exact")) known.exact = table.flag("exact");
-  try {
-    CoefficientTable columns = tabulate(csv, argument, known);
-    for (std::size_t i = 0; i < rotor.draft.check_at.size(); ++i) {
-      const double at = rotor.draft.check_values(argument)[i];
-      if (const std::string fault = columns.outside(at); !fault.empty())
-        table.fail("table", csv.path + ": " + fault + Draft::where_on_trace(i));
-    }
-    return columns;
-  } catch (const TableFault& error) {
-    table.fail("table", error.what());
+  CoefficientTable columns = read_coefficient_table(rotor.draft.scene, table, "table", argument, known);
+  const std::vector<double> arguments = rotor.draft.check_values(argument);
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (const std::string fault = columns.outside(arguments[i]); !fault.empty())
+      table.fail("table", columns.path + ": " + fault + Draft::where_on_trace(i));
   }
+  return columns;
 }
 
 /// The pairs of nodes that a bearing connects.
@@ -145,9 +140,7 @@ std::vector<std::pair<NodePlace, std::optional<NodePlace>>> read_ends(const Roto
 }  // namespace
 
 void read_bearings(RotorDraft& rotor) {
-  const std::vector<const Table*> all = tables(rotor.draft.scene, "bearing");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = rotor.draft.reader(*all[i], "[[bearing]] " + std::to_string(i + 1));
+  rotor.draft.for_each_table("bearing", [&](TableReader& table, std::size_t i) {
     const auto ends = read_ends(rotor, table);
     const std::optional<CoefficientTable> columns = read_columns(rotor, table, ends.front().first);
     const BearingCoefficients coefficients = read_coefficients(rotor, table, columns ? &*columns : nullptr);
@@ -168,7 +161,7 @@ void read_bearings(RotorDraft& rotor) {
     std::string text = (ends.front().second ? "between " : "at ") + where;
     if (columns) text += "; " + columns->in_words();
     rotor.data.emplace_back("bearing " + std::to_string(i + 1), text);
-  }
+  });
 }
 
 }  // namespace eigentrail

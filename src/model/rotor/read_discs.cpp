@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/short_text.hpp"
 #include "eigentrail/core/text.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
@@ -68,9 +69,7 @@ void add_disc(RotorDraft& rotor, const NodePlace& place, const DiscInertia& disc
 }  // namespace
 
 void read_discs(RotorDraft& rotor) {
-  const std::vector<const Table*> all = tables(rotor.draft.scene, "disc");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = rotor.draft.reader(*all[i], "[[disc]] " + std::to_string(i + 1));
+  rotor.draft.for_each_table("disc", [&](TableReader& table, std::size_t i) {
     const std::vector<NodePlace> places = rotor.read_nodes(table, "node");
     const DiscInertia disc = table.has("mass") || !table.has("outer")
                                  ? inertia_of_numbers(rotor.draft, table)
@@ -83,8 +82,8 @@ void read_discs(RotorDraft& rotor) {
       where += (where.empty() ? "" : ", ") + rotor.name_of(place);
     }
     rotor.data.emplace_back("disc " + std::to_string(i + 1),
-                            six_digits(rotor.first_value(disc.mass)) + " kg at " + where);
-  }
+                            short_text(rotor.first_value(disc.mass), 6) + " kg at " + where);
+  });
 }
 
 }  // namespace eigentrail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/short_text.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "model/rotor/rotor_draft.hpp"
@@ -15,9 +16,7 @@ constexpr Eigen::Index largest_dense_rotor = 150;
 
 /// Reads the [[support]] tables: freedoms of nodes that do not move.
 void read_supports(RotorDraft& rotor) {
-  const std::vector<const Table*> all = tables(rotor.draft.scene, "support");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = rotor.draft.reader(*all[i], "[[support]] " + std::to_string(i + 1));
+  rotor.draft.for_each_table("support", [&](TableReader& table, std::size_t) {
     const std::vector<NodePlace> places = rotor.read_nodes(table, "node");
     rotor.count(RotorEffect::support);
     const std::vector<std::string> holds =
@@ -33,7 +32,7 @@ void read_supports(RotorDraft& rotor) {
         rotor.shafts[place.shaft].held[place.node][static_cast<std::size_t>(found - freedom_names.begin())] =
             true;
     }
-  }
+  });
 }
 
 /// Adds a coordinate, and returns its index.
@@ -80,9 +79,9 @@ std::string shaft_in_words(const RotorDraft& rotor, const ShaftDraft& shaft) {
     length += rotor.first_value(segment.length);
     mass += rotor.first_value(shaft.density * piece.area() * segment.length);
   }
-  return six_digits(length) + " m, " + six_digits(mass) + " kg, " + std::to_string(shaft.nodes.size() - 1) +
-         (shaft.nodes.size() == 2 ? " element, " : " elements, ") + "nodes 1 to " +
-         std::to_string(shaft.nodes.size());
+  return short_text(length, 6) + " m, " + short_text(mass, 6) + " kg, " +
+         std::to_string(shaft.nodes.size() - 1) + (shaft.nodes.size() == 2 ? " element, " : " elements, ") +
+         "nodes 1 to " + std::to_string(shaft.nodes.size());
 }
 
 ModelDescription describe(RotorDraft& rotor) {

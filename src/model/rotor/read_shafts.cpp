@@ -202,12 +202,11 @@ std::string read_shaft_name(const RotorDraft& rotor, TableReader& table, bool ne
 
 void read_shafts(RotorDraft& rotor) {
   Draft& draft = rotor.draft;
-  const std::vector<const Table*> all = tables(draft.scene, "shaft");
+  const bool several = tables(draft.scene, "shaft").size() > 1;
   long elements = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    TableReader table = draft.reader(*all[i], "[[shaft]] " + std::to_string(i + 1));
+  draft.for_each_table("shaft", [&](TableReader& table, std::size_t) {
     ShaftDraft shaft;
-    shaft.name = read_shaft_name(rotor, table, all.size() > 1);
+    shaft.name = read_shaft_name(rotor, table, several);
     read_segments(rotor, table, shaft);
     read_material(rotor, table, shaft);
     shaft.position = draft.read_number(table, "position", "m", Range::any, 0.0);
@@ -229,7 +228,7 @@ void read_shafts(RotorDraft& rotor) {
     held[about_z] = !shaft.torsion;
     shaft.held.assign(nodes, held);
     rotor.shafts.push_back(std::move(shaft));
-  }
+  });
 }
 
 }  // namespace eigentrail

@@ -1,7 +1,6 @@
 #include "model/rotor/rotor_draft.hpp"
 
 #include <charconv>
-#include <sstream>
 
 namespace eigentrail {
 namespace {
@@ -57,13 +56,6 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
   }
   if (places.empty()) table.fail(key, "expected a node, found an empty list");
   return places;
-}
-
-std::string six_digits(double x) {
-  std::ostringstream text;
-  text.precision(6);
-  text << x;
-  return text.str();
 }
 
 double RotorDraft::first_value(const Expression& expression) const {

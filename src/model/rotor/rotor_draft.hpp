@@ -77,9 +77,6 @@ struct RotorDraft {
   double first_value(const Expression& expression) const;
 };
 
-/// A number for `explain`, with six digits.
-std::string six_digits(double x);
-
 /// Reads the [[shaft]] tables (read_shafts.cpp); without nodes' coordinates.
 void read_shafts(RotorDraft& rotor);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/gaps.hpp"
-#include "model/rotor/tabulated_factor.hpp"
+#include "model/tabulated_factor.hpp"
 
 namespace eigentrail {
 namespace {

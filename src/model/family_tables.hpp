@@ -1,0 +1,32 @@
+// What the readers of families of matrices have in common.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/hdf5_file.hpp"
+#include "eigentrail/model/model.hpp"
+#include "eigentrail/scene/scene.hpp"
+
+namespace eigentrail {
+
+/// The only table [name] of a scene that has the key. Throws InputError for an empty list, or several.
+const Table& only_table(const Scene& scene, const std::string& name);
+
+/// Index of the parameter that [trace] of the scene names. `what` says in the error what it is in a scene
+/// with the table [name].
+int traced_index(const Scene& scene, const std::string& name, const std::string& what);
+
+/// Why a member of an HDF5 file that is not known is refused: a misspelt group would otherwise count as a
+/// matrix that is zero. Empty if all are known.
+std::string unknown_member(const Hdf5File& file, const std::vector<std::string>& known);
+
+/// The number that a text is as a whole: a power of the parameter.
+std::optional<int> power_in(const std::string& name);
+
+/// A description with n coordinates: x1, x2, ... and the unit 1 where names and units are empty.
+ModelDescription describe_states(Eigen::Index n, const std::vector<std::string>& names,
+                                 const std::vector<std::string>& units = {});
+
+}  // namespace eigentrail
