@@ -75,6 +75,9 @@ class LargeModel {
   virtual std::optional<Bases> bases(const Model& reduced, const SparsePencil& pencil) const = 0;
 };
 
+/// All parameters (declared units) where those of a line have its values and the traced one is p.
+Vector parameters_at(const Model& model, const TraceOptions& trace, const ParameterValues& line, double p);
+
 /// The shift for a choice of modes: the middle of those that are wanted, or zero.
 Shift usual_shift(const ModeChoice& choice);
 

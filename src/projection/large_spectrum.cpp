@@ -1,9 +1,7 @@
-#include "eigentrail/projection/large_spectrum.hpp"
+#include "projection/large_spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "projection/large_model.hpp"
 
 namespace eigentrail {
 namespace {
@@ -20,47 +18,28 @@ std::shared_ptr<const Model> shared(const Model& model) {
 
 }  // namespace
 
-struct LargeSpectrum::Implementation {
-  const Model& model;
-  const TraceOptions& trace;
-  std::unique_ptr<LargeModel> large;
-  ModeFinder finder;
+LargeSpectrum::LargeSpectrum(const Model& model, const TraceOptions& trace)
+    : trace_(trace),
+      large_(large_model_of(shared(model), trace)),
+      finder_(std::clamp(share_of_tolerance * trace.tolerance, 1e-13, 1e-9)) {}
 
-  Vector parameters_at(double p) const {
-    const Parameters& all = model.description().parameters;
-    Vector values = all.declared_values();
-    for (const auto& [name, value] : trace.values) values[all.index(name).value()] = value;
-    values[all.index(trace.parameter).value()] = p;
-    return values;
-  }
-
-  /// Adds the modes nearest to the shift, and those within `cover` of it, to `found`; returns the radius
-  /// within which all are known, 0 if there is no answer.
-  double add(const SparsePencil& pencil, const Shift& shift, int count, double cover,
-             std::vector<Complex>& found) {
-    const int most = static_cast<int>(pencil.freedoms()) - 2;
-    const auto modes =
-        finder.find(pencil, {shift, std::min(count, most), cover, std::min(3 * count, most), std::nullopt});
-    if (!modes) return 0.0;
-    found.insert(found.end(), modes->s.begin(), modes->s.end());
-    return modes->radius;
-  }
-};
-
-LargeSpectrum::LargeSpectrum(const Model& model, const TraceOptions& trace, const SparseSolverMaker& solver)
-    : implementation_(std::make_unique<Implementation>(Implementation{
-          model, trace, large_model_of(shared(model), trace),
-          ModeFinder(std::clamp(share_of_tolerance * trace.tolerance, 1e-13, 1e-9), solver)})) {}
-
-LargeSpectrum::~LargeSpectrum() = default;
+double LargeSpectrum::add(const SparsePencil& pencil, const Shift& shift, int count, double cover,
+                          std::vector<Complex>& found) {
+  const int most = static_cast<int>(pencil.freedoms()) - 2;
+  const auto modes =
+      finder_.find(pencil, {shift, std::min(count, most), cover, std::min(3 * count, most), std::nullopt});
+  if (!modes) return 0.0;
+  found.insert(found.end(), modes->s.begin(), modes->s.end());
+  return modes->radius;
+}
 
 std::vector<Complex> LargeSpectrum::beside(const ComplexVector& wanted, double p, const Vector& x,
                                            const Vector& lambda) {
-  Implementation& it = *implementation_;
-  const auto place = it.large->place_near({p, it.parameters_at(p), x, lambda});
+  const auto place =
+      large_->place_near({p, parameters_at(large_->model(), trace_, trace_.values, p), x, lambda});
   if (!place) return {};
-  const SparsePencil pencil = it.large->pencil(*place);
-  const Shift usual = usual_shift(it.trace.modes);
+  const SparsePencil pencil = large_->pencil(*place);
+  const Shift usual = usual_shift(trace_.modes);
   double farthest = 0.0;
   int count = spare;
   for (const Complex s : wanted) {
@@ -69,10 +48,10 @@ std::vector<Complex> LargeSpectrum::beside(const ComplexVector& wanted, double p
     ++count;
   }
   std::vector<Complex> found;
-  const double radius = it.add(pencil, usual, count, 1.01 * farthest, found);
+  const double radius = add(pencil, usual, count, 1.01 * farthest, found);
   for (const Complex s : wanted) {
     if (!std::isfinite(std::abs(s)) || std::abs(s - usual.value()) <= radius) continue;
-    it.add(pencil, {0.0, std::max(s.imag(), 1e-3 * std::abs(s))}, spare, std::abs(s.real()), found);
+    add(pencil, {0.0, std::max(s.imag(), 1e-3 * std::abs(s))}, spare, std::abs(s.real()), found);
   }
   return found;
 }

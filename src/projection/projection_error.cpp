@@ -50,22 +50,23 @@ RefinedMode refined_mode(const SmallPencil& small, Complex s, const ComplexVecto
 
 namespace {
 
-/// Real and imaginary parts of vectors of the modes, side by side.
+/// Real parts of vectors of the modes in the first half of the columns, imaginary parts in the second one.
 Matrix parts_of(const std::vector<ProjectedMode>& modes, ComplexVector ProjectedMode::*vector) {
-  Matrix parts((modes.front().*vector).size(), 2 * static_cast<Eigen::Index>(modes.size()));
-  Eigen::Index j = 0;
-  for (const ProjectedMode& mode : modes) {
-    parts.col(j++) = (mode.*vector).real();
-    parts.col(j++) = (mode.*vector).imag();
+  const auto k = static_cast<Eigen::Index>(modes.size());
+  Matrix parts((modes.front().*vector).size(), 2 * k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    parts.col(j) = (modes[static_cast<std::size_t>(j)].*vector).real();
+    parts.col(k + j) = (modes[static_cast<std::size_t>(j)].*vector).imag();
   }
   return parts;
 }
 
-ComplexVector unit_vector(const Eigen::Ref<const Matrix>& parts) {
+/// Vector j of such parts.
+template <class Parts>
+ComplexVector vector_of(const Parts& parts, Eigen::Index j) {
   ComplexVector vector(parts.rows());
-  vector.real() = parts.col(0);
-  vector.imag() = parts.col(1);
-  vector.normalize();
+  vector.real() = parts.col(j);
+  vector.imag() = parts.col(parts.cols() / 2 + j);
   return vector;
 }
 
@@ -85,9 +86,11 @@ std::vector<ProjectedMode> lifted(const std::vector<ProjectedMode>& modes, const
     all << product(right_basis, right), product(left_basis, left);
   }
   std::vector<ProjectedMode> result;
-  for (Eigen::Index j = 0; j < k; j += 2)
-    result.push_back({modes[static_cast<std::size_t>(j / 2)].s, unit_vector(all.middleCols(j, 2)),
-                      unit_vector(all.middleCols(k + j, 2))});
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto j = static_cast<Eigen::Index>(i);
+    result.push_back({modes[i].s, vector_of(all.leftCols(k), j).normalized(),
+                      vector_of(all.rightCols(k), j).normalized()});
+  }
   return result;
 }
 
@@ -125,18 +128,11 @@ class DualNorm {
 struct TermProducts {
   RowBlock M, C, K;
 
-  Eigen::Index count() const { return M.cols() / 2; }
-  ComplexVector of(const RowBlock& products, Eigen::Index j) const {
-    ComplexVector column(products.rows());
-    column.real() = products.col(j);
-    column.imag() = products.col(count() + j);
-    return column;
-  }
   /// (M s^2 + C s + K) times each vector, with its own s.
   RowBlock residuals(const ComplexVector& s) const {
     const Vector a = s.real(), b = s.imag(), p = s.cwiseAbs2().real() - 2.0 * b.cwiseAbs2(),
                  q = 2.0 * a.cwiseProduct(b);  // s^2 = p + i q
-    const Eigen::Index k = count();
+    const Eigen::Index k = M.cols() / 2;
     RowBlock R(M.rows(), 2 * k);
     R.leftCols(k) = M.leftCols(k) * p.asDiagonal();
     R.leftCols(k) -= M.rightCols(k) * q.asDiagonal();
@@ -157,16 +153,6 @@ Matrix force(const RowBlock& block, Eigen::Index j) {
   return parts;
 }
 
-RowBlock side_by_side(const std::vector<ProjectedMode>& modes, ComplexVector ProjectedMode::*vector) {
-  const auto k = static_cast<Eigen::Index>(modes.size());
-  RowBlock block((modes.front().*vector).size(), 2 * k);
-  for (Eigen::Index j = 0; j < k; ++j) {
-    block.col(j) = (modes[static_cast<std::size_t>(j)].*vector).real();
-    block.col(k + j) = (modes[static_cast<std::size_t>(j)].*vector).imag();
-  }
-  return block;
-}
-
 }  // namespace
 
 std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
@@ -174,11 +160,11 @@ std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
   if (modes.empty()) return {};
   const Vector M = pencil.M.diagonal().cwiseAbs(), C = pencil.C.diagonal().cwiseAbs(),
                K = pencil.K.diagonal().cwiseAbs();
-  const RowBlock right = side_by_side(modes, &ProjectedMode::right);
+  const RowBlock right = parts_of(modes, &ProjectedMode::right);
   const TermProducts products{pencil.M * right, pencil.C * right, pencil.K * right};
   TermProducts transposed;
   if (!pencil.symmetric) {
-    const RowBlock left = side_by_side(modes, &ProjectedMode::left);
+    const RowBlock left = parts_of(modes, &ProjectedMode::left);
     transposed = {pencil.M.transpose() * left, pencil.C.transpose() * left, pencil.K.transpose() * left};
   }
   ComplexVector s_of(static_cast<Eigen::Index>(modes.size()));
@@ -194,8 +180,8 @@ std::vector<EigenvalueError> eigenvalue_errors(const SparsePencil& pencil,
     const DualNorm size(pencil.A, (scale.array() + 1e-12 * scale.maxCoeff()).matrix());
     const double right_size = size(force(residuals, j));
     const double residual = right_size * (pencil.symmetric ? right_size : size(force(of_left, j)));
-    const ComplexVector inertia = 2.0 * products.of(products.M, j);
-    const double slope = std::abs(y.cwiseProduct(s * inertia + products.of(products.C, j)).sum());
+    const ComplexVector inertia = 2.0 * vector_of(products.M, j);
+    const double slope = std::abs(y.cwiseProduct(s * inertia + vector_of(products.C, j)).sum());
     const double curvature = std::abs(y.cwiseProduct(inertia).sum());
     errors.push_back({2.0 * residual / (slope + std::sqrt(slope * slope + 2.0 * curvature * residual)),
                       slope / curvature});

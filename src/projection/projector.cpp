@@ -108,7 +108,7 @@ class Projector {
   /// The space of the modes at single values of the parameter: there the eigenvalues are exact.
   std::unique_ptr<Model> at(const std::vector<double>& values) {
     for (const double p : values) {
-      const auto place = large_.place_at(p, parameters_at(p, lines_.front()));
+      const auto place = large_.place_at(p, parameters_on(lines_.front(), p));
       if (place) add(find_chosen(large_.pencil(*place)), p);
     }
     return settled(reduced());
@@ -125,14 +125,6 @@ class Projector {
   void check_choice() const {
     if (trace_.modes.count || trace_.modes.band) return;
     refuse_all_modes(large_.model());
-  }
-
-  Vector parameters_at(double p, const ParameterValues& line) const {
-    const Parameters& parameters = large_.model().description().parameters;
-    Vector values = parameters.declared_values();
-    for (const auto& [name, value] : line) values[parameters.index(name).value()] = value;
-    values[parameters.index(trace_.parameter).value()] = p;
-    return values;
   }
 
   NearestModes find(const SparsePencil& pencil, ModeRequest request, double p) {
@@ -188,7 +180,7 @@ class Projector {
       // Chebyshev places with the ends: dense where interpolation is worst.
       const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (n - 1));
       const double p = i == n - 1 ? trace_.to : trace_.from + share * (trace_.to - trace_.from);
-      const auto place = large_.place_at(p, parameters_at(p, line));
+      const auto place = large_.place_at(p, parameters_on(line, p));
       if (!place) return;  // the path turns back: the trace will show where
       const SparsePencil pencil = large_.pencil(*place);
       add(count_ == 0 ? find_chosen(pencil, tolerance)
@@ -202,7 +194,10 @@ class Projector {
     return large_.reduced(space_, accuracy_of_vectors(), middle(), frequency_);
   }
 
-  Vector middle() const { return parameters_at(0.5 * (trace_.from + trace_.to), lines_.front()); }
+  Vector parameters_on(const ParameterValues& line, double p) const {
+    return parameters_at(large_.model(), trace_, line, p);
+  }
+  Vector middle() const { return parameters_on(lines_.front(), 0.5 * (trace_.from + trace_.to)); }
 
   std::unique_ptr<Model> settled(std::unique_ptr<Model> model) {
     projection_.factorizations = finder_.factorizations();
@@ -386,6 +381,14 @@ class Projector {
 };
 
 }  // namespace
+
+Vector parameters_at(const Model& model, const TraceOptions& trace, const ParameterValues& line, double p) {
+  const Parameters& parameters = model.description().parameters;
+  Vector values = parameters.declared_values();
+  for (const auto& [name, value] : line) values[parameters.index(name).value()] = value;
+  values[parameters.index(trace.parameter).value()] = p;
+  return values;
+}
 
 Shift usual_shift(const ModeChoice& choice) {
   if (choice.near) return {0.0, *choice.near};

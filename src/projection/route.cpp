@@ -29,10 +29,8 @@ int kept_modes(const TraceOptions& trace) {
   return followed_modes(trace) + ProjectionOptions().spare_modes;
 }
 
-Vector parameters_in_the_middle(const Parameters& parameters, const TraceOptions& trace) {
-  Vector values = parameters.declared_values();
-  values[parameters.index(trace.parameter).value()] = 0.5 * (trace.from + trace.to);
-  return values;
+Vector parameters_in_the_middle(const Model& model, const TraceOptions& trace) {
+  return parameters_at(model, trace, {}, 0.5 * (trace.from + trace.to));
 }
 
 ProjectionEstimate estimate_of(const SparsePencil& pencil, const TraceOptions& trace,
@@ -56,9 +54,8 @@ ProjectionEstimate estimate_of(const SparsePencil& pencil, const TraceOptions& t
 
 ProjectionEstimate estimate_of_scene(const Model& scene, const TraceOptions& trace,
                                      const SparseSolverMaker& solver) {
-  const Parameters& parameters = scene.description().parameters;
-  const Vector values = parameters_in_the_middle(parameters, trace);
-  const Structure structure = scene.structure(parameters.index(trace.parameter).value());
+  const Vector values = parameters_in_the_middle(scene, trace);
+  const Structure structure = scene.structure(scene.description().parameters.index(trace.parameter).value());
   Linearization at;
   EvaluationCounts counts = scene.new_counts();
   const Path guess{values, scene.initial_guess(values), Vector::Zero(scene.n_constraints())};
@@ -134,7 +131,7 @@ ProjectionEstimate estimate_projection(const Model& model, const TraceOptions& t
                                        const SparseSolverMaker& solver) {
   const auto* family = dynamic_cast<const SparseFamily*>(&model);
   if (family == nullptr) return estimate_of_scene(model, trace, solver);
-  const Vector values = parameters_in_the_middle(family->description().parameters, trace);
+  const Vector values = parameters_in_the_middle(*family, trace);
   return estimate_of(FamilyPencils(*family).at(values), trace, solver);
 }
 

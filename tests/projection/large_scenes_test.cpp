@@ -5,7 +5,6 @@
 #include <random>
 
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/projection/large_spectrum.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/projection/route.hpp"
 #include "eigentrail/steady/equilibrium.hpp"

@@ -6,8 +6,8 @@
 
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
-#include "eigentrail/projection/large_spectrum.hpp"
 #include "eigentrail/store/loci_file.hpp"
+#include "projection/large_spectrum.hpp"
 
 namespace eigentrail {
 
