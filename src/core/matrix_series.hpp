@@ -1,7 +1,8 @@
-// Arithmetic of truncated power series with matrix coefficients.
+// Arithmetic of truncated power series with matrix coefficients, and values of scalar ones.
 #pragma once
 
 #include <Eigen/LU>
+#include <array>
 #include <vector>
 
 #include "core/thin_product.hpp"
@@ -15,6 +16,18 @@ Coefficient evaluate_series(const std::vector<Coefficient>& series, double h) {
   Coefficient value = series.back();
   for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
   return value;
+}
+
+/// Value, first and second derivative at h of a series with scalar coefficients.
+template <class Coefficients, class Scalar>
+std::array<Scalar, 3> jet(const Coefficients& series, Scalar h) {
+  std::array<Scalar, 3> result{};
+  for (Eigen::Index k = series.size() - 1; k >= 0; --k) {
+    result[2] = result[2] * h + 2.0 * result[1];
+    result[1] = result[1] * h + result[0];
+    result[0] = result[0] * h + series[k];
+  }
+  return result;
 }
 
 /// The first `count` coefficients of A(h) B(h); missing coefficients of A and B are zero.

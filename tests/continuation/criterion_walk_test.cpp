@@ -62,7 +62,7 @@ struct Bending {
     const Step step = planted.step(left, 0.25, alone({root(0.25)}));
     const HermiteInterpolant excitation = no_excitation();
     CriteriaOnStep on_step(step, 0, excitation, default_rounding);
-    return locate(planted.search, step, on_step, {0, 0}, target, t, found);
+    return locate(planted.search, on_step, 0, target, t, found);
   }
   double level;
   PlantedSearch planted;
@@ -120,7 +120,7 @@ Located locate_on(const PlantedOscillator& planted, const Step& step, const Crit
   const HermiteInterpolant interpolant(step.h, constant, constant);
   CriteriaOnStep on_step(step, 0, interpolant, default_rounding);
   Located located;
-  located.done = locate(planted.search, step, on_step, {0, 0}, target, t, located.found);
+  located.done = locate(planted.search, on_step, 0, target, t, located.found);
   return located;
 }
 

@@ -23,12 +23,12 @@ constexpr double slope_width = 1e-3;
 /// they are known to the square root of rounding only.
 constexpr double before_meeting = 1e-7;
 
-/// Place of the change of sign between t = from, where the value has the sign of `before`, and t = to.
-double sign_change(CriteriaOnStep& on_step, const Criterion& criterion, std::size_t member, double from,
-                   double to, double before) {
-  for (int i = 0; i < sign_halvings; ++i) {
+/// The place between `from` and `to` up to which a condition holds, by so many bisections.
+template <class Condition>
+double bisected(double from, double to, int halvings, const Condition& holds) {
+  for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (from + to);
-    (on_step.value(criterion, member, middle) * before > 0.0 ? from : to) = middle;
+    (holds(middle) ? from : to) = middle;
   }
   return 0.5 * (from + to);
 }
@@ -39,14 +39,10 @@ double extremum_near(CriteriaOnStep& on_step, const Criterion& criterion, std::s
     return on_step.value(criterion, member, std::min(t + slope_width, 1.0)) -
            on_step.value(criterion, member, std::max(t - slope_width, on_step.begin()));
   };
-  double from = std::max(on_step.begin(), about - 1.0 / samples_per_step);
-  double to = std::min(1.0, about + 1.0 / samples_per_step);
+  const double from = std::max(on_step.begin(), about - 1.0 / samples_per_step);
+  const double to = std::min(1.0, about + 1.0 / samples_per_step);
   const double behind = slope(to);
-  for (int i = 0; i < extremum_halvings; ++i) {
-    const double middle = 0.5 * (from + to);
-    (slope(middle) * behind > 0.0 ? to : from) = middle;
-  }
-  return 0.5 * (from + to);
+  return bisected(from, to, extremum_halvings, [&](double t) { return !(slope(t) * behind > 0.0); });
 }
 
 /// Samples the eigenvalues of one track.
@@ -152,7 +148,9 @@ class TrackScan {
     // Where eigenvalues coincide at the left end the criterion may have a kink there, which is no extremum.
     if (seen == Seen::extremum && track().departure && at.last <= on_step_.begin()) return;
     if (seen == Seen::zero && !criterion.asks_for_extrema()) {
-      const double guess = sign_change(on_step_, criterion, member, at.last, at.t, before);
+      const double guess = bisected(at.last, at.t, sign_halvings, [&](double t) {
+        return on_step_.value(criterion, member, t) * before > 0.0;
+      });
       if (!locate_at(member, {criterion, pair, Sought::zero, value}, guess) && !criterion.asks_for_pairs())
         note_unlocated(member, guess);
     } else if (seen == Seen::extremum && criterion.asks_for_extrema()) {
@@ -182,7 +180,7 @@ class TrackScan {
   }
 
   bool locate_at(std::size_t member, const CriterionTarget& target, double t) {
-    return locate(search_, step_, on_step_, {index_, member}, target, t, found_);
+    return locate(search_, on_step_, member, target, t, found_);
   }
   void locate_extremum(std::size_t member, const CriterionTarget& target, double about) {
     locate_at(member, target, extremum_near(on_step_, target.criterion, member, about));

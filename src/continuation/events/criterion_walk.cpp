@@ -58,12 +58,7 @@ struct RootOfSeries {
 RootOfSeries root_near_zero(const Vector& series) {
   RootOfSeries root;
   for (int i = 0; i < most_corrections; ++i) {
-    double value = 0.0;
-    double slope = 0.0;
-    for (Eigen::Index k = series.size() - 1; k >= 0; --k) {
-      slope = slope * root.offset + value;
-      value = value * root.offset + series[k];
-    }
+    const auto [value, slope, curvature] = jet(series, root.offset);
     if (slope == 0.0 || !std::isfinite(value / slope)) return {};
     const double move = value / slope;
     root.offset -= move;
@@ -91,9 +86,16 @@ int nearest_member(const Track& track, Complex root, std::size_t own) {
 /// Locates one zero or extremum.
 class CriterionWalk {
  public:
-  CriterionWalk(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
-                const CriterionTarget& target, FoundEvents& found)
-      : search_(search), step_(step), on_step_(on_step), member_(member), target_(target), found_(found) {}
+  /// `by_product`: of a real eigenvalue of a block, by the zero of a product (ModeFunction).
+  CriterionWalk(const EventSearch& search, CriteriaOnStep& on_step, std::size_t member,
+                const CriterionTarget& target, bool by_product, FoundEvents& found)
+      : search_(search),
+        on_step_(on_step),
+        member_(member),
+        target_(target),
+        by_product_(by_product),
+        found_(found),
+        step_(on_step.step()) {}
 
   /// As `locate`.
   bool run(double t);
@@ -112,17 +114,19 @@ class CriterionWalk {
   int direction(double offset) const;
   double other_factor() const;
   double slope_in(const PathNode& along, const Track& along_q, const std::vector<int>& members) const;
-  Chart chart() const { return step_.left->tracks[member_.track].pair.chart; }
+  const Track& track() const { return on_step_.track(); }
+  Chart chart() const { return track().pair.chart; }
   /// Errors by rounding of the eigenvalue at the last look, and of the mean of its block.
   double rounding() const;
   double rounding_of_mean() const;
 
   const EventSearch& search_;
-  const Step& step_;
   CriteriaOnStep& on_step_;
-  const Member& member_;
+  std::size_t member_;
   const CriterionTarget& target_;
+  bool by_product_;
   FoundEvents& found_;
+  const Step& step_;
   std::optional<NearbyMode> mode_;  ///< at the last look
   Vector g_;                        ///< series of the criterion there
   double moved_ = 0.0;              ///< change of the eigenvalue by the last move
@@ -132,8 +136,7 @@ class CriterionWalk {
 
 double CriterionWalk::rounding() const {
   const Track& there = mode_->solved.node.tracks.front();
-  return rounding_of_roots(there,
-                           search_.thresholds().rounding)[nearest_member(there, mode_->root, member_.index)];
+  return rounding_of_roots(there, search_.thresholds().rounding)[nearest_member(there, mode_->root, member_)];
 }
 
 double CriterionWalk::rounding_of_mean() const {
@@ -142,9 +145,9 @@ double CriterionWalk::rounding_of_mean() const {
 
 /// Whether the walk has reached a double eigenvalue, and what that means.
 CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
-  const bool meets = series.size() < 2 || (!target_.by_product && mode_->gap <= meeting_gap * moved_);
+  const bool meets = series.size() < 2 || (!by_product_ && mode_->gap <= meeting_gap * moved_);
   if (!meets) return Ending::none;
-  if (has_product(target_, step_.left->tracks[member_.track])) return Ending::unsettled;
+  if (has_product(target_, track())) return Ending::unsettled;
   // A double eigenvalue has no derivatives, so that Newton's method cannot go on.
   const bool on_axis = std::abs(mode_->root.real()) <= rounding();
   return target_.criterion.kind == EventKind::flutter && (look > 1 || on_axis) ? Ending::at_meeting
@@ -156,12 +159,10 @@ CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int loo
 /// left end; the move leads to the zero of this function. Empty where it does not apply: also where g has the
 /// same sign at the left end as at the present iterate.
 std::optional<double> CriterionWalk::move_behind_meeting(double distance, double move) const {
-  const Track& track = step_.left->tracks[member_.track];
   const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
-  if (!track.departure || mode_->is_mean || target_.by_product || target_.sought != Sought::zero ||
-      !overshoots)
+  if (!track().departure || mode_->is_mean || by_product_ || target_.sought != Sought::zero || !overshoots)
     return std::nullopt;
-  const Complex root = track.roots[static_cast<Eigen::Index>(member_.index)];
+  const Complex root = track().roots[static_cast<Eigen::Index>(member_)];
   const double at_meeting = on_step_.value(target_.criterion, upper_member(root, chart()), 0.0);
   if (at_meeting * g_[0] >= 0.0) return std::nullopt;
   const double share = at_meeting / (g_[0] - at_meeting);
@@ -171,17 +172,17 @@ std::optional<double> CriterionWalk::move_behind_meeting(double distance, double
 /// One Newton step from a distance from the left end.
 Sight CriterionWalk::look(double distance) {
   ++looks_;
-  const Complex expected = on_step_.member_near(member_.index, distance / step_.h);
+  const Complex expected = on_step_.member_near(member_, distance / step_.h);
   const bool of_pair = target_.criterion.kind == EventKind::flutter && target_.pair;
-  mode_ = look_at_mode(search_.solver, *step_.left, member_.track, expected, distance,
-                       target_.by_product ? ModeFunction::product
-                       : of_pair          ? ModeFunction::pair_mean
-                                          : ModeFunction::eigenvalue);
+  mode_ = look_at_mode(search_.solver, *step_.left, on_step_.track_index(), expected, distance,
+                       by_product_ ? ModeFunction::product
+                       : of_pair   ? ModeFunction::pair_mean
+                                   : ModeFunction::eigenvalue);
   if (!mode_) return {Sight::Kind::failed};
   const ComplexVector& series = mode_->series;
   ending_ = ending(series, looks_);
   if (ending_ != Ending::none) return {Sight::Kind::absent};
-  g_ = target_.by_product
+  g_ = by_product_
            ? Vector(series.real())
            : criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
   const bool is_zero = target_.sought == Sought::zero;
@@ -204,7 +205,7 @@ Sight CriterionWalk::look(double distance) {
   // of the move. Not so beside a meeting on the real axis, which may be as close.
   const double range = search_.frame().coordinate_range();
   const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
-  const bool beside_meeting = has_product(target_, step_.left->tracks[member_.track]);
+  const bool beside_meeting = has_product(target_, track());
   const double short_move = beside_meeting ? resolution : extremum_resolution * range;
   const bool settled =
       !behind_meeting && ((useful && root.doubt <= resolution) || std::abs(move) <= short_move);
@@ -231,9 +232,8 @@ bool CriterionWalk::run(double t) {
 /// extremum near zero it locates the two zeros.
 void CriterionWalk::finish(double offset, double distance, int looks) {
   if (target_.sought == Sought::zero) return record(offset, true, looks);
-  double value = 0.0;
-  for (Eigen::Index k = g_.size() - 1; k >= 0; --k) value = value * offset + g_[k];
-  const double curvature = derivative(derivative(g_))[0];
+  const double value = jet(g_, offset)[0];
+  const double curvature = 2.0 * g_[2];
   if (target_.sought == Sought::extremum) {
     // Where a pair meets on the real axis its damping ratio is 1 or -1, an extremum of no interest.
     const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
@@ -247,15 +247,14 @@ void CriterionWalk::finish(double offset, double distance, int looks) {
   } else if (value * curvature < 0.0) {
     const double half = std::sqrt(-2.0 * value / curvature);
     for (const double side : {-half, half}) {
-      locate(search_, step_, on_step_, member_, {target_.criterion, target_.pair, Sought::zero},
+      locate(search_, on_step_, member_, {target_.criterion, target_.pair, Sought::zero},
              (distance + offset + side) / step_.h, found_);
     }
   }
 }
 
 int CriterionWalk::direction(double offset) const {
-  double slope = 0.0;
-  for (Eigen::Index k = g_.size() - 1; k > 0; --k) slope = slope * offset + static_cast<double>(k) * g_[k];
+  const double slope = jet(g_, offset)[1];
   switch (target_.sought) {
     case Sought::zero:
       // Where one of two factors is zero, the slope of the product is that of the factor times the other one.
@@ -269,9 +268,9 @@ int CriterionWalk::direction(double offset) const {
 
 /// Of a zero of a product: the other eigenvalue, which is the sum of both there. Else 1.
 double CriterionWalk::other_factor() const {
-  if (!target_.by_product) return 1.0;
+  if (!by_product_) return 1.0;
   const Track& there = mode_->solved.node.tracks.front();
-  const int root = nearest_member(there, mode_->root, member_.index);
+  const int root = nearest_member(there, mode_->root, member_);
   return (there.roots[root] + there.roots[partner_of_root(there, root)]).real();
 }
 
@@ -279,7 +278,7 @@ double CriterionWalk::other_factor() const {
 double CriterionWalk::slope_in(const PathNode& along, const Track& along_q,
                                const std::vector<int>& members) const {
   const Track& there = mode_->solved.node.tracks.front();
-  if (target_.by_product) {
+  if (by_product_) {
     const std::vector<int> factors{members.front(), partner_of_root(there, members.front())};
     const ComplexVector product =
         product_series(part_series(along_q.series.Lambda, roots_of(there, factors)));
@@ -297,7 +296,7 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   const PathNode& node = mode_->solved.node;
   const Track& there = node.tracks.front();
   const EventKind asked = target_.criterion.kind;
-  const bool moves_on = located && !target_.by_product;
+  const bool moves_on = located && !by_product_;
   const Complex root =
       moves_on ? evaluate_series(ComplexMatrix(mode_->series.transpose()), offset)[0] : mode_->root;
   Event event;
@@ -306,7 +305,7 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   event.s = chart_value(root, there.pair.chart);
   if (event.kind == EventKind::flutter) event.s = Complex(0.0, std::abs(event.s.imag()));
   if (event.kind == EventKind::divergence) event.s = 0.0;
-  event.modes = {step_.left->tracks[member_.track].modes[member_.index]};
+  event.modes = {track().modes[member_]};
   event.retrackings = looks;
   event.node = search_.node;
   if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
@@ -318,7 +317,7 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
     return;
   if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
-  const std::vector<int> members{nearest_member(there, mode_->root, member_.index)};
+  const std::vector<int> members{nearest_member(there, mode_->root, member_)};
   keep_shape(node, there, members, offset, event);
   const auto moves = [&](const Track&, const PathNode& along, const Track& along_q) {
     const bool is_zero = located && target_.sought == Sought::zero;
@@ -333,11 +332,12 @@ void CriterionWalk::record(double offset, bool located, int looks) {
 
 CriteriaOnStep::CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation,
                                const RoundingThresholds& thresholds)
-    : track_(step.left->tracks[track]),
+    : step_(step),
+      index_(track),
       thresholds_(thresholds),
       roots_(*step.left, step.right, track, step.h),
       excitation_(excitation) {
-  departing_roots(track_, step.h, departing_);
+  departing_roots(this->track(), step.h, departing_);
   begin_ = std::max(departing_, 0.0);
 }
 
@@ -346,12 +346,12 @@ Complex CriteriaOnStep::member_near(std::size_t member, double t) {
 }
 
 Complex CriteriaOnStep::root(std::size_t member, double t) {
-  return upper_member(roots_(t)[static_cast<Eigen::Index>(member)], track_.pair.chart);
+  return upper_member(roots_(t)[static_cast<Eigen::Index>(member)], track().pair.chart);
 }
 
 double CriteriaOnStep::value(const Criterion& criterion, Complex root, double t) const {
   const bool is_excited = criterion.kind == EventKind::resonance;
-  return criterion_value(criterion, root, track_.pair.chart, is_excited ? excitation_(t)[0].real() : 0.0);
+  return criterion_value(criterion, root, track().pair.chart, is_excited ? excitation_(t)[0].real() : 0.0);
 }
 
 double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, double t) {
@@ -360,7 +360,7 @@ double CriteriaOnStep::value(const Criterion& criterion, std::size_t member, dou
 
 double CriteriaOnStep::rounding(std::size_t member, double t) {
   if (t != rounding_at_) {
-    roundings_ = rounding_of_roots(track_, roots_.functions()(t), roots_(t), thresholds_);
+    roundings_ = rounding_of_roots(track(), roots_.functions()(t), roots_(t), thresholds_);
     rounding_at_ = t;
   }
   return roundings_[static_cast<Eigen::Index>(member)];
@@ -372,13 +372,12 @@ Vector excitation_at(const EventSearch& search, const PathNode& node) {
                            node.path.parameters, problem.order + 1);
 }
 
-bool locate(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
+bool locate(const EventSearch& search, CriteriaOnStep& on_step, std::size_t member,
             const CriterionTarget& target, double t, FoundEvents& found) {
-  if (CriterionWalk(search, step, on_step, member, target, found).run(t)) return true;
-  if (!has_product(target, step.left->tracks[member.track])) return false;
-  CriterionTarget by_product = target;
-  by_product.by_product = true;
-  return CriterionWalk(search, step, on_step, member, by_product, found).run(t);
+  const auto located = [&](bool by_product) {
+    return CriterionWalk(search, on_step, member, target, by_product, found).run(t);
+  };
+  return located(false) || (has_product(target, on_step.track()) && located(true));
 }
 
 }  // namespace eigentrail

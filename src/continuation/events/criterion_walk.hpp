@@ -10,11 +10,6 @@
 
 namespace eigentrail {
 
-/// An eigenvalue of a track: index of the track, and index of the eigenvalue among its roots.
-struct Member {
-  std::size_t track = 0, index = 0;
-};
-
 /// What is to be located.
 struct CriterionTarget {
   enum class Sought {
@@ -27,7 +22,6 @@ struct CriterionTarget {
   Sought sought = Sought::zero;
   double behind =
       0.0;  ///< value behind the zero, by the samples; its sign is the direction where no slope is
-  bool by_product = false;  ///< of a real eigenvalue of a block: by the zero of a product (ModeFunction)
 };
 
 /// Eigenvalues of one track and their criteria from the dense output of a step, at any t in [0, 1].
@@ -36,6 +30,11 @@ class CriteriaOnStep {
   /// `excitation`: the excitation frequency on the step. Keeps references to all.
   CriteriaOnStep(const Step& step, std::size_t track, const HermiteInterpolant& excitation,
                  const RoundingThresholds& thresholds);
+
+  const Step& step() const { return step_; }
+  std::size_t track_index() const { return index_; }
+  /// At the left end.
+  const Track& track() const { return step_.left->tracks[index_]; }
 
   /// Smallest t at which the eigenvalues can be distinguished: zero, or a little more where some of them
   /// coincide at the left end.
@@ -53,7 +52,8 @@ class CriteriaOnStep {
   double rounding(std::size_t member, double t);
 
  private:
-  const Track& track_;
+  const Step& step_;
+  std::size_t index_;
   const RoundingThresholds& thresholds_;
   EigenvalueSampler roots_;
   const HermiteInterpolant& excitation_;
@@ -66,9 +66,10 @@ class CriteriaOnStep {
 /// The excitation frequency (rad/s) at a point, as a power series along the path.
 Vector excitation_at(const EventSearch& search, const PathNode& node);
 
-/// Locates a zero or extremum of a member near t. Appends the event to `found`, if there is one. Returns
-/// false if Newton's method fails, although the dense output shows a zero or extremum.
-bool locate(const EventSearch& search, const Step& step, CriteriaOnStep& on_step, const Member& member,
+/// Locates a zero or extremum of an eigenvalue (index among the roots of the track) near t. Appends the event
+/// to `found`, if there is one. Returns false if Newton's method fails, although the dense output shows a
+/// zero or extremum.
+bool locate(const EventSearch& search, CriteriaOnStep& on_step, std::size_t member,
             const CriterionTarget& target, double t, FoundEvents& found);
 
 }  // namespace eigentrail

@@ -16,11 +16,6 @@ constexpr int neighbouring = 2;
 /// Safety factor on the rounding of coinciding eigenvalues.
 constexpr double event_rounding_margin = 10.0;
 
-template <class Condition>
-bool any_of(const std::vector<Event>& events, const Condition& holds) {
-  return std::any_of(events.begin(), events.end(), holds);
-}
-
 /// Largest distance in s between a collision of m eigenvalues and one of them at a place that differs by
 /// `place` in p: the Puiseux coefficient times the m-th root of `place`, plus the m-th root of rounding, to
 /// which the eigenvalues are known.
@@ -56,7 +51,10 @@ bool are_one(const Event& a, const Event& b, double range, const EventThresholds
 
 template <class Condition>
 bool EventLog::any_event(const Condition& holds) const {
-  return any_of(events, holds) || (found != nullptr && any_of(found->events, holds));
+  const auto any_of = [&](const std::vector<Event>& list) {
+    return std::any_of(list.begin(), list.end(), holds);
+  };
+  return any_of(events) || (found != nullptr && any_of(found->events));
 }
 
 bool EventLog::has(const Event& event) const {

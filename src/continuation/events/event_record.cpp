@@ -35,8 +35,8 @@ std::optional<PathNode> slopes_along(PathProblem problem, const PathPoint& point
 
 }  // namespace
 
-void leave_unknown(std::size_t n_parameters, Event& event) {
-  const auto count = static_cast<Eigen::Index>(n_parameters);
+void leave_unknown(const PathProblem& problem, Event& event) {
+  const auto count = static_cast<Eigen::Index>(problem.model.description().parameters.size());
   event.sensitivity = ComplexVector::Constant(count, Complex(nan, nan));
   event.shift = Vector::Constant(count, nan);
   for (EventOfCopy& copy : event.copies) {
@@ -54,8 +54,7 @@ void keep_shape(const PathNode& node, const Track& track, const std::vector<int>
                 Event& event) {
   const ComplexMatrix Lambda = evaluate_series(track.series.Lambda, offset);
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(Lambda);
-  Eigen::Index nearest = 0;
-  (solver.eigenvalues().array() - track.roots[members.front()]).abs().minCoeff(&nearest);
+  const Eigen::Index nearest = nearest_root(solver.eigenvalues(), track.roots[members.front()]);
   const ComplexVector shape = evaluate_series(track.series.Z, offset) * solver.eigenvectors().col(nearest);
   keep_shape(node, track.pair.part, shape, event);
 }
@@ -85,7 +84,7 @@ void keep_sensitivities(const PathProblem& problem, const PathPoint& point, cons
                         const Track& track, const std::vector<int>& members, const Movement& moves,
                         Event& event, RunCounts& counts) {
   const auto& parameters = problem.model.description().parameters;
-  leave_unknown(parameters.size(), event);
+  leave_unknown(problem, event);
   const std::vector<Complex> roots = roots_of(track, members);
   const double speed = coefficient(node.path.parameters, problem.traced, 1);
   PathPoint of_track = point;
@@ -138,7 +137,7 @@ void keep_fold_sensitivities(const PathProblem& problem, const PathNode& node, E
   for (std::size_t q = 0; q < all.size(); ++q) all[q] = static_cast<int>(q);
   const std::vector<KernelLoad> loads =
       kernel_loads(problem.model, node.path, all, node.linearization, node.basis.T[0], counts.evaluations);
-  leave_unknown(parameters.size(), event);
+  leave_unknown(problem, event);
   for (const int q : all) {
     const auto i = static_cast<std::size_t>(q);
     if (q == problem.traced || parameters[i].definition) continue;

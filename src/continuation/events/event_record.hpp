@@ -24,7 +24,7 @@ void keep_shape(const PathNode& node, const Track& track, const std::vector<int>
 void keep_shape(const PathNode& node, int part, const ComplexVector& shape, Event& event);
 
 /// Sets all sensitivities of an event and its copies to NaN.
-void leave_unknown(std::size_t n_parameters, Event& event);
+void leave_unknown(const PathProblem& problem, Event& event);
 
 /// The path point of a node as it was before differentiation, without pencil and modes.
 PathPoint solved_point(const PathProblem& problem, const PathNode& node, RunCounts& counts);

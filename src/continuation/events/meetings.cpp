@@ -51,17 +51,6 @@ std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> me
   return all;
 }
 
-/// Value, first and second derivative of a polynomial.
-std::array<Complex, 3> jet(const ComplexVector& series, Complex at) {
-  std::array<Complex, 3> result{};
-  for (Eigen::Index j = series.size() - 1; j >= 0; --j) {
-    result[2] = result[2] * at + 2.0 * result[1];
-    result[1] = result[1] * at + result[0];
-    result[0] = result[0] * at + series[j];
-  }
-  return result;
-}
-
 /// Replaces two roots that are much closer to each other than to zero by the roots of the parabola about the
 /// place between them where the slope vanishes. Close to a double root this keeps more digits than Newton's
 /// method for each root.

@@ -18,12 +18,6 @@ constexpr double distinct_share = 1e-3;
 /// by more, the corrector may have converged to the other one.
 constexpr double moved_too_far = 0.1;
 
-Eigen::Index nearest_root(const ComplexVector& roots, Complex expected) {
-  Eigen::Index nearest = 0;
-  (roots.array() - expected).abs().minCoeff(&nearest);
-  return nearest;
-}
-
 /// The point at distance h with one eigenvalue of a block as a single mode. Empty for a track that is a
 /// single mode anyway, and where the other eigenvalues are too close.
 std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt& base, Complex expected,

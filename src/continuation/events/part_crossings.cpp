@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "continuation/events/event_record.hpp"
@@ -25,6 +26,8 @@ struct ModeOfTrack {
   std::size_t track = 0;
   Eigen::Index member = 0;
   int mode = 0;
+  /// s by t. Every pair of modes is looked at in the same places first.
+  std::map<double, Complex> known = {};
 };
 
 /// All modes of a step, by the dense output.
@@ -40,16 +43,18 @@ class ModesOnStep {
     }
   }
 
-  const std::vector<ModeOfTrack>& all() const { return all_; }
+  std::vector<ModeOfTrack>& all() { return all_; }
   Chart chart(const ModeOfTrack& mode) const { return step_.left->tracks[mode.track].pair.chart; }
 
   /// The eigenvalue at t in its chart, and as s with Im s >= 0.
   Complex root(const ModeOfTrack& mode, double t) { return samplers_[mode.track](t)[mode.member]; }
-  Complex s(const ModeOfTrack& mode, double t) {
-    return upper_member(chart_value(root(mode, t), chart(mode)), Chart::finite);
+  Complex s(ModeOfTrack& mode, double t) {
+    const auto [known, is_new] = mode.known.try_emplace(t);
+    if (is_new) known->second = upper_member(chart_value(root(mode, t), chart(mode)), Chart::finite);
+    return known->second;
   }
   /// Rounding error of s.
-  double resolution(const ModeOfTrack& mode, double t) {
+  double resolution(ModeOfTrack& mode, double t) {
     const double of_root = samplers_[mode.track].resolution_at(t, mode.member, mode.member);
     return chart(mode) == Chart::finite ? of_root : of_root * std::norm(s(mode, t));
   }
@@ -66,7 +71,7 @@ class CrossingWalk {
  public:
   CrossingWalk(const EventSearch& search, const Step& step, ModesOnStep& on_step, const ModeOfTrack& a,
                const ModeOfTrack& b)
-      : search_(search), step_(step), on_step_(on_step), modes_{a, b} {}
+      : search_(search), step_(step), on_step_(on_step), modes_{&a, &b} {}
 
   std::optional<Event> from(double t);
 
@@ -77,7 +82,7 @@ class CrossingWalk {
   const EventSearch& search_;
   const Step& step_;
   ModesOnStep& on_step_;
-  std::array<ModeOfTrack, 2> modes_;
+  std::array<const ModeOfTrack*, 2> modes_;
   std::array<Complex, 2> roots_;  ///< the eigenvalues in their charts, as they are expected at the next look
   std::array<std::optional<NearbyMode>, 2> seen_;  ///< at the last look
   std::array<Complex, 2> s_;                       ///< likewise
@@ -88,11 +93,11 @@ Sight CrossingWalk::look(double h) {
   std::array<Complex, 2> slopes;
   for (std::size_t i = 0; i < 2; ++i) {
     seen_[i] =
-        look_at_mode(search_.solver, *step_.left, modes_[i].track, roots_[i], h, ModeFunction::eigenvalue);
+        look_at_mode(search_.solver, *step_.left, modes_[i]->track, roots_[i], h, ModeFunction::eigenvalue);
     if (!seen_[i] || seen_[i]->series.size() < 2 || seen_[i]->series[0] == 0.0) return {};
     roots_[i] = seen_[i]->root;
     ComplexVector series = seen_[i]->series;
-    if (on_step_.chart(modes_[i]) == Chart::reciprocal) series = reciprocal_series(series);
+    if (on_step_.chart(*modes_[i]) == Chart::reciprocal) series = reciprocal_series(series);
     if (series[0].imag() < 0.0) series = series.conjugate().eval();
     s_[i] = series[0];
     slopes[i] = series[1];
@@ -108,18 +113,17 @@ Event CrossingWalk::event_here() const {
   for (std::size_t i = 0; i < 2; ++i) {
     const PathNode& node = seen_[i]->solved.node;
     const Track& track = node.tracks.front();
-    Eigen::Index root = 0;
-    (track.roots.array() - seen_[i]->root).abs().minCoeff(&root);
-    keep_shape(node, track, {static_cast<int>(root)}, 0.0, own[i]);
+    const std::vector<int> members{static_cast<int>(nearest_root(track.roots, seen_[i]->root))};
+    keep_shape(node, track, members, 0.0, own[i]);
     keep_sensitivities(search_.problem(), solved_point(search_.problem(), node, search_.solver.counts()),
-                       node, track, {static_cast<int>(root)}, {}, own[i], search_.solver.counts());
+                       node, track, members, {}, own[i], search_.solver.counts());
   }
   Event event = own[0];
   event.copies.clear();  // equal modes of copies are modes of the same crossing
   event.kind = EventKind::crossing;
   event.p = seen_[0]->solved.node.p;
   event.s = 0.5 * (s_[0] + s_[1]);
-  event.modes = {std::min(modes_[0].mode, modes_[1].mode), std::max(modes_[0].mode, modes_[1].mode)};
+  event.modes = {std::min(modes_[0]->mode, modes_[1]->mode), std::max(modes_[0]->mode, modes_[1]->mode)};
   event.node = search_.node;
   event.retrackings = looks_;
   event.sensitivity = 0.5 * (own[0].sensitivity + own[1].sensitivity);
@@ -133,7 +137,7 @@ Event CrossingWalk::event_here() const {
 }
 
 std::optional<Event> CrossingWalk::from(double t) {
-  for (std::size_t i = 0; i < 2; ++i) roots_[i] = on_step_.root(modes_[i], t);
+  for (std::size_t i = 0; i < 2; ++i) roots_[i] = on_step_.root(*modes_[i], t);
   const double speed = std::max(std::abs(search_.frame().speed(*step_.left)), 1e-300);
   WalkRules rules;
   rules.resolution = crossing_resolution * search_.frame().range.length() / speed;
@@ -146,11 +150,11 @@ std::optional<Event> CrossingWalk::from(double t) {
   return event_here();
 }
 
-/// Crossings of two modes on the step. Newton's method decides how far off the real axis a root of their
-/// difference may be.
-void add_crossings(const EventSearch& search, const Step& step, ModesOnStep& on_step, const ModeOfTrack& a,
-                   const ModeOfTrack& b, FoundEvents& found) {
-  constexpr double off_axis = 0.5;  // in steps: a farther one is no crossing, however inaccurate it is
+/// Crossings of two modes on the step: of the roots of their difference near the real axis, those that
+/// Newton's method confirms.
+void add_crossings(const EventSearch& search, const Step& step, ModesOnStep& on_step, ModeOfTrack& a,
+                   ModeOfTrack& b, FoundEvents& found) {
+  constexpr double off_axis = 0.1;  // in steps
   // In steps. By the error of the dense output, one at the end of the step may lie behind it: whirl of a
   // shaft at rest.
   constexpr double past_the_ends = 1e-3;
@@ -193,7 +197,7 @@ FoundEvents find_part_crossings(const EventSearch& search, const Step& step) {
     return ranges[static_cast<std::size_t>(step.left->tracks[mode.track].pair.part)].like;
   };
   ModesOnStep on_step(step);
-  const std::vector<ModeOfTrack>& modes = on_step.all();
+  std::vector<ModeOfTrack>& modes = on_step.all();
   for (std::size_t i = 0; i < modes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       // Modes of equal parts coincide throughout, or where those of one part meet.

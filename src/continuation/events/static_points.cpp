@@ -93,7 +93,7 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   event.retrackings = 1;
   event.node = search.node;
   if (trimmed) {
-    leave_unknown(search.problem().model.description().parameters.size(), event);
+    leave_unknown(search.problem(), event);
     found.events.push_back(std::move(event));
     return found;
   }
@@ -101,7 +101,7 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   if (event.kind == EventKind::fold)
     keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
   else if (event.kind == EventKind::cusp)  // no other parameter only moves it: it becomes two folds, or none
-    leave_unknown(search.problem().model.description().parameters.size(), event);
+    leave_unknown(search.problem(), event);
   found.events.push_back(std::move(event));
   return found;
 }
@@ -136,7 +136,7 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   if (is_limit) {
     event.kind = EventKind::cusp;
     event.direction = 0;
-    leave_unknown(problem.model.description().parameters.size(), event);
+    leave_unknown(problem, event);
     return {{std::move(event)}};
   }
   event.kind = EventKind::branch_point;

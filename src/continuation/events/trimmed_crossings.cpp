@@ -76,7 +76,7 @@ FoundEvents find_trimmed_crossing(const EventSearch& search, const Step& step) {
   event.kind = EventKind::branch_point;
   event.p = path.p(place_of_change(path, begin, end, before));
   event.node = search.node;
-  leave_unknown(search.problem().model.description().parameters.size(), event);
+  leave_unknown(search.problem(), event);
   FoundEvents found;
   found.notes.push_back("another trimmed path crosses at " + place_text(search.options, event.p) +
                         "; the trace stays on its own, and branches there cannot be chosen");

@@ -240,7 +240,7 @@ class VeeringSearch {
     Prediction prediction = search_.solver.predict({node, {}}, distance);
     prediction.pairs = {std::move(pair)};
     const auto there = search_.solver.solve(prediction, node.basis.T[0]);
-    if (!there) return leave_unknown(problem.model.description().parameters.size(), event);
+    if (!there) return leave_unknown(problem, event);
     keep_sensitivities(problem, there->point, there->node, there->node.tracks.front(), {0, 1}, {}, event,
                        search_.solver.counts());
   }

@@ -30,10 +30,14 @@ std::vector<Complex> roots_of(const Track& track, const std::vector<int>& member
   return roots;
 }
 
+Eigen::Index nearest_root(const ComplexVector& roots, Complex s) {
+  Eigen::Index nearest = 0;
+  (roots.array() - s).abs().minCoeff(&nearest);
+  return nearest;
+}
+
 Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member) {
-  Eigen::Index conjugate = member;
-  (roots.array() - std::conj(roots[member])).abs().minCoeff(&conjugate);
-  return conjugate;
+  return nearest_root(roots, std::conj(roots[member]));
 }
 
 Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,

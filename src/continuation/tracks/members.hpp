@@ -17,6 +17,9 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
 /// The eigenvalues of a track with these indices.
 std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members);
 
+/// Index of the eigenvalue that is nearest to a number.
+Eigen::Index nearest_root(const ComplexVector& roots, Complex s);
+
 /// Index of the conjugate of an eigenvalue of a real block: its own, of a real one.
 Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member);
 
