@@ -126,23 +126,13 @@ TEST_F(DamagedState, ThatEndsEarlyOrGoesOnIsRefused) {
   expect_refused(state + 'x', "a state with a byte too many");
 }
 
-/// Counts, shapes and indices of a state are checked. Other numbers may have any value; the trace then ends
-/// with one of its usual outcomes.
-TEST_F(DamagedState, WithWrongBytesIsRefusedOrTraced) {
+TEST_F(DamagedState, WithWrongBytesIsRefused) {
   std::mt19937 random(20);
-  int refused = 0;
   for (int i = 0; i < 400; ++i) {
     std::string bytes = state;
-    for (int j = 0; j < 3; ++j) bytes[random() % bytes.size()] = static_cast<char>(random());
-    TraceOptions options = setting.options;
-    options.max_nodes = run.result.nodes;
-    try {
-      static_cast<void>(resume_trace(*setting.model, options, {}, bytes));
-    } catch (const InputError&) {
-      ++refused;
-    }
+    for (int j = 0; j < 3; ++j) ++bytes[random() % bytes.size()];
+    expect_refused(bytes, "a state with three wrong bytes");
   }
-  EXPECT_GT(refused, 0);
 }
 
 TEST_F(DamagedState, OfAnotherModelIsRefused) {

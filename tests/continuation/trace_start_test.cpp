@@ -50,8 +50,8 @@ TEST(ComputeStart, FollowsAllModesByMagnitude) {
       EXPECT_GT(std::abs(tracks[i].roots[0]), std::abs(tracks[i - 1].roots[0]));
     }
   }
-  EXPECT_GT(start.state.settings.s_max, 1e3 * 5.0);
-  EXPECT_LT(start.state.settings.s_ref, 1.0);
+  EXPECT_GT(start.problem->s_max, 1e3 * 5.0);
+  EXPECT_LT(start.problem->s_ref, 1.0);
 }
 
 TEST(ComputeStart, FollowsAsManyAsAreAskedFor) {

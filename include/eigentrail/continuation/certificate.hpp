@@ -63,10 +63,11 @@ class StepPencil {
   /// Width of the bands of the pencils at both ends; empty where they are not banded.
   std::optional<Eigen::Index> find_width() const;
   Matrix interpolate(const MatrixSeries& left, const MatrixSeries& right, const Vector& weights) const;
-  /// Brings the right pencil of a part into the reduced coordinates of the left point.
-  void turn_part(const TangentBasis& left, const TangentBasis& right, std::size_t part);
-  /// Gives a series that is not constant its `count_` coefficients.
-  void fill_up(MatrixSeries& series) const;
+  /// The series G(h) = (D^T T(h))^-1, where D is dual to the columns of a basis at the left point and T its
+  /// series at the right one: T(h) G(h) spans the same space as T(h), in the coordinates of the left point.
+  MatrixSeries change_of(const Matrix& dual, const MatrixSeries& right) const;
+  /// Replaces the series B of the right pencil by E^T B G, by products that use BLAS or leave zeros out.
+  void turn(const MatrixSeries& equations, const MatrixSeries& coordinates);
 
   const PathNode& left_;
   const ReducedPencil& left_pencil_;

@@ -26,10 +26,4 @@ AdaptedNorm AdaptedNorm::balancing(ComplexMatrix Q, const ComplexMatrix& TQ, con
   return norm;
 }
 
-void AdaptedNorm::scale(ComplexVector& x, const Vector& factors) const {
-  if (is_plain()) return;
-  const ComplexVector parts = Q_.adjoint() * x;
-  x += Q_ * ComplexVector((factors.array() - 1.0).cast<Complex>() * parts.array());
-}
-
 }  // namespace eigentrail

@@ -18,14 +18,25 @@ class AdaptedNorm {
   /// should be the left singular vectors of T with the largest singular values. `TQ`: T Q. `adjoint`: T^H Q.
   static AdaptedNorm balancing(ComplexMatrix Q, const ComplexMatrix& TQ, const ComplexMatrix& adjoint);
 
-  /// Overwrites x with S x; S^-1 x.
-  void apply(ComplexVector& x) const { scale(x, factors_); }
-  void apply_inverse(ComplexVector& x) const { scale(x, factors_.cwiseInverse()); }
+  /// Overwrites a vector, or the columns of a matrix, with S X; S^-1 X.
+  template <class Columns>
+  void apply(Columns& X) const {
+    scale(X, factors_);
+  }
+  template <class Columns>
+  void apply_inverse(Columns& X) const {
+    scale(X, factors_.cwiseInverse());
+  }
 
   bool is_plain() const { return factors_.size() == 0; }
 
  private:
-  void scale(ComplexVector& x, const Vector& factors) const;
+  template <class Columns>
+  void scale(Columns& X, const Vector& factors) const {
+    if (is_plain()) return;
+    const Columns parts = Q_.adjoint() * X;
+    X += Q_ * ((factors.array() - 1.0).matrix().cast<Complex>().asDiagonal() * parts);
+  }
 
   ComplexMatrix Q_;
   Vector factors_;  ///< the diagonal of D

@@ -20,30 +20,27 @@ class BallNorm {
   /// From here on adapted; `norm` is one of the unknowns in the energy norm.
   void set_adapted(AdaptedNorm norm) { adapted_ = std::move(norm); }
 
-  /// Overwrites each column of X with its coordinates in which the energy norm is the plain one, and back;
-  /// and with what the adjoints of both maps make of it.
+  /// Overwrites a vector, or the columns of a matrix, with S X, S^H X, S^-1 X, S^-H X.
   template <class Columns>
-  void to_energy(Columns& X) const {
-    scale(X, &EnergyNorm::times, factor_);
-  }
-  template <class Columns>
-  void from_energy(Columns& X) const {
+  void apply(Columns& X) const {
+    adapted_.apply(X);
     scale(X, &EnergyNorm::inverse_times, 1.0 / factor_);
   }
   template <class Columns>
-  void to_energy_adjoint(Columns& X) const {
-    scale(X, &EnergyNorm::transposed_times, factor_);
+  void apply_adjoint(Columns& X) const {
+    scale(X, &EnergyNorm::inverse_transposed_times, 1.0 / factor_);
+    adapted_.apply(X);
   }
   template <class Columns>
-  void from_energy_adjoint(Columns& X) const {
-    scale(X, &EnergyNorm::inverse_transposed_times, 1.0 / factor_);
+  void apply_inverse(Columns& X) const {
+    scale(X, &EnergyNorm::times, factor_);
+    adapted_.apply_inverse(X);
   }
-
-  /// Overwrites x with S x, S^H x, S^-1 x, S^-H x.
-  void apply(ComplexVector& x) const;
-  void apply_adjoint(ComplexVector& x) const;
-  void apply_inverse(ComplexVector& x) const;
-  void apply_inverse_adjoint(ComplexVector& x) const;
+  template <class Columns>
+  void apply_inverse_adjoint(Columns& X) const {
+    adapted_.apply_inverse(X);
+    scale(X, &EnergyNorm::transposed_times, factor_);
+  }
 
   /// Bound of |Lambda / scale| for unknowns of norm one.
   double largest_eigenvalue_part() const;

@@ -182,15 +182,18 @@ class BallTest {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const State s(*this, samples[i].t);
       const auto change = B.change_to(s.place);
-      const double size =
-          i == 0 ? choose_norm(centre, B, change, norm, direction)
-                 : norm_safety * norm_of_solved(B, change, samples[i].iterations, norm, direction);
+      const double size = i == 0 ? choose_norm(centre, B, change, norm, direction)
+                                 : norm_safety * estimated_norm(OperatorInNorm(B, change, norm),
+                                                                samples[i].iterations, direction);
       if (i == 0) Z1 = size;
       largest = std::max(largest, size);
       if (!(largest < 1.0)) return false;
       residuals.col(static_cast<Eigen::Index>(i) + 1) = residual(s);
     }
-    const double Y = largest_of_solved(B, std::move(residuals), norm);
+    B.apply(residuals);
+    norm.apply_inverse(residuals);
+    if (!residuals.allFinite()) return false;
+    const double Y = residuals.colwise().norm().maxCoeff();
     const double room = 1.0 - largest;
     return curvature_is_below(room * room / (2.0 * Y), centre, scale, B, norm);
   }
@@ -200,9 +203,10 @@ class BallTest {
   template <class Inverse, class Change>
   double choose_norm(const State& centre, const Inverse& B, const Change& change, BallNorm& norm,
                      ComplexVector& direction) const {
+    const OperatorInNorm in_norm(B, change, norm);
     const auto size_of_change = [&](double enough) {
       direction = start_vector(centre.Z.size() + centre.Lambda.size());
-      return norm_safety * norm_of_solved(B, change, power_iterations, norm, direction, enough);
+      return norm_safety * estimated_norm(in_norm, power_iterations, direction, enough);
     };
     const double too_large = 1.0 / norm_safety;
     double Z1 = size_of_change(too_large);
@@ -212,7 +216,7 @@ class BallTest {
     if (Z1 < 1.0) return Z1;
     const Eigen::Index directions =
         std::clamp(direction.size() / unknowns_per_direction, least_directions, most_directions);
-    norm.set_adapted(adapted_norm(B, change, norm, direction, directions));
+    norm.set_adapted(adapted_norm(in_norm, direction, directions));
     return size_of_change(INFINITY);
   }
 
@@ -237,24 +241,16 @@ class BallTest {
       double squares = 0.0;
       for (Eigen::Index i = 0; i < k * k; ++i) {
         const PairCurvature A(s.place, W1_, scale, i % k, i / k);
+        const OperatorInNorm in_norm(B, A, norm);
         ComplexVector direction = start_vector(s.Z.size() + s.Lambda.size());
         const double estimate =
-            is_rough
-                ? rough_safety * std::sqrt(size) * size_of_image(B, A, norm, direction)
-                : curvature_safety * norm_safety * norm_of_solved(B, A, power_iterations, norm, direction);
+            is_rough ? rough_safety * std::sqrt(size) * in_norm.times(direction.normalized().eval()).norm()
+                     : curvature_safety * norm_safety * estimated_norm(in_norm, power_iterations, direction);
         squares += estimate * estimate;
       }
       if (both * std::sqrt(squares) < limit) return true;
     }
     return false;
-  }
-
-  /// |B A v| / |v|.
-  template <class Inverse, class Operator>
-  static double size_of_image(const Inverse& B, const Operator& A, const BallNorm& norm, ComplexVector v) {
-    v.normalize();
-    norm.apply(v);
-    return largest_of_solved(B, ComplexMatrix(A.times(v)), norm);
   }
 
   const StepPencil& pencil_;

@@ -66,30 +66,9 @@ JacobianChange::JacobianChange(const PairAtPlace& from, const PairAtPlace& to, c
       slope_(to.slope - from.slope) {
   if (from.pencil.bands && to.pencil.bands) {
     set_bands();
-  } else if (Z_.cols() == 1) {
-    set_pencil();
   } else {
     set_terms();
   }
-}
-
-void JacobianChange::set_pencil() {
-  const PencilAtPoint& a = from_.pencil;
-  const PencilAtPoint& b = to_.pencil;
-  const Complex s_a = from_.Lambda(0, 0);
-  const Complex s_b = to_.Lambda(0, 0);
-  const Complex square_a = s_a * s_a;
-  const Complex square_b = s_b * s_b;
-  P_.resize(Z_.rows(), Z_.rows());
-  // Entry by entry: assignments to real and imaginary part apart go twice through the memory.
-  for (Eigen::Index i = 0; i < P_.size(); ++i) {
-    const double M_a = a.M.data()[i], M_b = b.M.data()[i];
-    const double C_a = a.C.data()[i], C_b = b.C.data()[i];
-    P_.data()[i] = {square_b.real() * M_b - square_a.real() * M_a + s_b.real() * C_b - s_a.real() * C_a +
-                        b.K.data()[i] - a.K.data()[i],
-                    square_b.imag() * M_b - square_a.imag() * M_a + s_b.imag() * C_b - s_a.imag() * C_a};
-  }
-  of_eigenvalue_ = scale_ * (s_b * to_.MZ - s_a * from_.MZ + slope_);
 }
 
 void JacobianChange::set_bands() {
@@ -125,26 +104,6 @@ void JacobianChange::set_terms() {
   B_.resize(n * static_cast<Eigen::Index>(terms.size()), n);
   for (std::size_t i = 0; i < terms.size(); ++i)
     B_.middleRows(static_cast<Eigen::Index>(i) * n, n) = *terms[i];
-}
-
-// A single mode has W1 = 0: the last row is zero.
-
-template <class Columns>
-Columns JacobianChange::times_of_mode(const Columns& V) const {
-  const Eigen::Index n = P_.rows();
-  Columns result = Columns::Zero(V.rows(), V.cols());
-  result.topRows(n) = product(P_, Columns(V.topRows(n))) + of_eigenvalue_ * V.row(n);
-  return result;
-}
-
-template <class Columns>
-Columns JacobianChange::adjoint_times_of_mode(const Columns& V) const {
-  const Eigen::Index n = P_.rows();
-  const Columns R = V.topRows(n);
-  Columns result(V.rows(), V.cols());
-  result.topRows(n) = adjoint_product(P_, R);
-  result.row(n) = of_eigenvalue_.adjoint() * R;
-  return result;
 }
 
 ComplexMatrix JacobianChange::pencil_times(const ComplexMatrix& X) const {
@@ -188,7 +147,7 @@ ComplexMatrix JacobianChange::pencil_adjoint_times(const ComplexMatrix& R) const
   return transposed_multiply(B_, RL);
 }
 
-ComplexMatrix JacobianChange::times_of_block(const ComplexMatrix& V) const {
+ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
   const Eigen::Index m = V.cols();
@@ -205,7 +164,7 @@ ComplexMatrix JacobianChange::times_of_block(const ComplexMatrix& V) const {
   return result;
 }
 
-ComplexMatrix JacobianChange::adjoint_times_of_block(const ComplexMatrix& V) const {
+ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
   const Eigen::Index n = Z_.rows();
   const Eigen::Index k = Z_.cols();
   const Eigen::Index m = V.cols();
@@ -222,22 +181,6 @@ ComplexMatrix JacobianChange::adjoint_times_of_block(const ComplexMatrix& V) con
     result.col(j) << X.reshaped(), scale_ * Y.reshaped();
   }
   return result;
-}
-
-ComplexVector JacobianChange::times(const ComplexVector& v) const {
-  return P_.size() > 0 ? times_of_mode(v) : ComplexVector(times_of_block(v));
-}
-
-ComplexVector JacobianChange::adjoint_times(const ComplexVector& v) const {
-  return P_.size() > 0 ? adjoint_times_of_mode(v) : ComplexVector(adjoint_times_of_block(v));
-}
-
-ComplexMatrix JacobianChange::times(const ComplexMatrix& V) const {
-  return P_.size() > 0 ? times_of_mode(V) : times_of_block(V);
-}
-
-ComplexMatrix JacobianChange::adjoint_times(const ComplexMatrix& V) const {
-  return P_.size() > 0 ? adjoint_times_of_mode(V) : adjoint_times_of_block(V);
 }
 
 }  // namespace eigentrail

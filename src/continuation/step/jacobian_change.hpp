@@ -33,45 +33,31 @@ struct PairAtPlace {
 ComplexMatrix jacobian_matrix(const PairAtPlace& at, const ComplexMatrix& W, double scale);
 
 /// J(to) - J(from) as a linear map of (vec Z, vec Lambda / scale), n k + k^2 entries. Keeps references to its
-/// arguments. For a single mode the change is stored as a matrix, for a block as a sum of products, because
-/// the matrix would have k^2 times the entries of the pencil. Where the pencil is banded this is no
-/// hindrance.
+/// arguments. Stored as a sum of products, because the matrix of a block would have k^2 times the entries of
+/// the pencil. Where the pencil is banded this is no hindrance.
 class JacobianChange {
  public:
   /// W1 (n x k) is the lower half of the normalization W.
   JacobianChange(const PairAtPlace& from, const PairAtPlace& to, const ComplexMatrix& W1, double scale);
 
-  ComplexVector times(const ComplexVector& v) const;
-  ComplexVector adjoint_times(const ComplexVector& v) const;
-
-  /// The same for all columns of V together, which takes less time.
+  /// Of all columns of V together, which takes less time.
   ComplexMatrix times(const ComplexMatrix& V) const;
   ComplexMatrix adjoint_times(const ComplexMatrix& V) const;
 
  private:
-  void set_pencil();
   void set_terms();
   void set_bands();
   /// For all blocks X of k columns, side by side: the change of M X Lambda^2 + C X Lambda + K X, and the
   /// adjoint of this map.
   ComplexMatrix pencil_times(const ComplexMatrix& X) const;
   ComplexMatrix pencil_adjoint_times(const ComplexMatrix& R) const;
-  ComplexMatrix times_of_block(const ComplexMatrix& V) const;
-  ComplexMatrix adjoint_times_of_block(const ComplexMatrix& V) const;
-  /// The maps of a single mode, for a vector or the columns of a matrix.
-  template <class Columns>
-  Columns times_of_mode(const Columns& V) const;
-  template <class Columns>
-  Columns adjoint_times_of_mode(const Columns& V) const;
 
   const PairAtPlace &from_, &to_;
   const ComplexMatrix& W1_;
   double scale_;
   ComplexMatrix Z_, Lambda_, slope_;  ///< changes of Z, of Lambda and of M Z Lambda + C Z
-  ComplexMatrix P_;                   ///< for a single mode: the change of s^2 M + s C + K
-  ComplexVector of_eigenvalue_;       ///< and the change of its derivative by s, times the scale
-  /// For a block, the change is X -> sum of B_i X L_i. The B_i are stacked in one matrix, because one product
-  /// takes less time than several small ones.
+  /// The change is X -> sum of B_i X L_i. The B_i are stacked in one matrix, because one product takes less
+  /// time than several small ones.
   Matrix B_;
   std::vector<ComplexMatrix> L_;
   /// In band storage: the change of X -> column i of the residual by column j of X, as entry i + k j.

@@ -176,20 +176,20 @@ class ModalBallTest {
   Matrix inverse_distances(const ModalBasis& basis, const PairSet& set,
                            const std::vector<bool>& wanted) const {
     Matrix inverse = Matrix::Zero(basis.size(), static_cast<Eigen::Index>(places_.size()));
-    std::vector<ComplexMatrix> T, conjugate;
+    std::vector<ComplexMatrix> own, conjugate;
     for (const PairSet::Place& place : places_) {
-      T.push_back(triangular_form(set.block(set.Lambda, place)));
-      conjugate.push_back(T.back().conjugate());
+      own.push_back(set.block(set.Lambda, place));
+      conjugate.push_back(own.back().conjugate());
     }
     for (std::size_t b = 0; b < places_.size(); ++b) {
       if (!wanted[b]) continue;
       auto column = inverse.col(static_cast<Eigen::Index>(b));
       for (std::size_t a = 0; a < places_.size(); ++a) {
         const PairSet::Place& place = places_[a];
-        if (a != b) column.segment(place.first, place.size).setConstant(inverse_distance(T[a], T[b]));
+        if (a != b) column.segment(place.first, place.size).setConstant(inverse_distance(own[a], own[b]));
         if (place.is_real) continue;
         column.segment(basis.conjugate_row(place.first), place.size)
-            .setConstant(inverse_distance(conjugate[a], T[b]));
+            .setConstant(inverse_distance(conjugate[a], own[b]));
       }
     }
     return inverse;

@@ -15,13 +15,6 @@ namespace {
 /// Number of interpolated pencils that are cached per step: many large ones would fill the memory.
 constexpr std::size_t most_samples = 64;
 
-/// Series of G^T B G up to h^order, as `project` computes it, by products that use BLAS or leave zeros out.
-MatrixSeries transformed(const MatrixSeries& G, const MatrixSeries& B, int order) {
-  const auto count = static_cast<std::size_t>(order) + 1;
-  const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
-  return transposed_product(G, BG, std::min(count, BG.size() + G.size() - 1));
-}
-
 /// The inverse of a series of matrices, block by block where they are square.
 MatrixSeries inverse_by_blocks(const MatrixSeries& A) {
   const std::vector<DiagonalBlock> blocks = diagonal_blocks(A);
@@ -74,61 +67,42 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
   for (const Track& track : left.tracks) {
     count_ = std::max(count_, static_cast<Eigen::Index>(track.series.Z.size()));
   }
-  if (left.basis.is_identity) return;
-  if (left.basis.parts) {
-    if (left.basis.parts->frame.size() > 0)
-      turn_part(left.basis, right.basis, static_cast<std::size_t>(part));
-    return;  // without a frame both have the same coordinates
-  }
-  // T_right(h) G(h) with G = (T_left(0)^T T_right(h))^-1 spans the same space as T_right(h), in the reduced
-  // coordinates of the left point.
-  const bool large = right.linearization.K[0].is_sparse();
-  MatrixSeries overlap;
-  if (large)
-    overlap = transposed_product(MatrixSeries{left.basis.T[0]}, right.basis.T, right.basis.T.size());
-  else
-    for (const Matrix& T : right.basis.T) overlap.push_back(left.basis.T[0].transpose() * T);
-  fill_up(overlap);
-  const int order = static_cast<int>(count_) - 1;
-  if (large) {
-    const MatrixSeries G = inverse_by_blocks(overlap);
-    right_ = {transformed(G, right.pencil.M, order), transformed(G, right.pencil.C, order),
-              transformed(G, right.pencil.K, order)};
+  const IndependentParts* parts = left.basis.parts.get();
+  if (left.basis.is_identity || (parts != nullptr && parts->frame.size() == 0))
+    return;  // the same coordinates
+  if (parts == nullptr) {
+    const MatrixSeries G = change_of(left.basis.T[0], right.basis.T);
+    turn(G, G);
     return;
   }
-  const TangentBasis change{inverse_series(overlap), false};
-  right_ = {project(change, right.pencil.M, order), project(change, right.pencil.C, order),
-            project(change, right.pencil.K, order)};
+  // The coordinates of a part at the left point are those with the inverse of its own columns, and likewise
+  // for its equations.
+  const IndependentParts::Range& range = parts->ranges[static_cast<std::size_t>(part)];
+  const auto columns = [&](const MatrixSeries& all) {
+    MatrixSeries own;
+    for (const Matrix& coefficient : all) own.push_back(coefficient.middleCols(range.first, range.size));
+    return own;
+  };
+  const TangentBasis& there = right.basis;
+  const Matrix equations =
+      columns({parts->left}).front().completeOrthogonalDecomposition().pseudoInverse().transpose();
+  turn(change_of(equations, columns(there.left.empty() ? MatrixSeries{there.parts->left} : there.left)),
+       change_of(parts->coordinates(static_cast<std::size_t>(part)).transpose(), columns(there.T)));
 }
 
-void StepPencil::fill_up(MatrixSeries& series) const {
-  if (series.size() > 1)
-    series.resize(static_cast<std::size_t>(count_), Matrix::Zero(series[0].rows(), series[0].cols()));
+MatrixSeries StepPencil::change_of(const Matrix& dual, const MatrixSeries& right) const {
+  MatrixSeries overlap = transposed_product(MatrixSeries{dual}, right, right.size());
+  if (overlap.size() > 1)
+    overlap.resize(static_cast<std::size_t>(count_), Matrix::Zero(overlap[0].rows(), overlap[0].cols()));
+  return inverse_by_blocks(overlap);
 }
 
-/// The same for a part: its coordinates at the left point are those with the inverse of its own columns, and
-/// likewise for its equations.
-void StepPencil::turn_part(const TangentBasis& left, const TangentBasis& right, std::size_t part) {
-  const IndependentParts::Range& range = left.parts->ranges[part];
-  const auto columns = [&](const Matrix& all) { return all.middleCols(range.first, range.size); };
-  const auto change = [&](const Matrix& inverse, const MatrixSeries& there) {
-    MatrixSeries overlap;
-    for (const Matrix& coefficient : there) overlap.push_back(inverse * columns(coefficient));
-    fill_up(overlap);
-    return inverse_series(overlap);
-  };
-  const MatrixSeries G = change(left.parts->coordinates(part), right.T);
-  const MatrixSeries left_there = right.left.empty() ? MatrixSeries{right.parts->left} : right.left;
-  const Matrix equations = columns(left.parts->left).completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixSeries H = change(equations, left_there);
-  const auto turn = [&](MatrixSeries& B) {
-    const auto count = static_cast<std::size_t>(count_);
-    const MatrixSeries BG = product(B, G, std::min(count, B.size() + G.size() - 1));
-    B = transposed_product(H, BG, std::min(count, BG.size() + H.size() - 1));
-  };
-  turn(right_.M);
-  turn(right_.C);
-  turn(right_.K);
+void StepPencil::turn(const MatrixSeries& equations, const MatrixSeries& coordinates) {
+  const auto count = static_cast<std::size_t>(count_);
+  for (MatrixSeries* B : {&right_.M, &right_.C, &right_.K}) {
+    const MatrixSeries BG = product(*B, coordinates, std::min(count, B->size() + coordinates.size() - 1));
+    *B = transposed_product(equations, BG, std::min(count, BG.size() + equations.size() - 1));
+  }
 }
 
 bool StepPencil::has_constant_leading_matrix() const {

@@ -8,12 +8,6 @@
 namespace eigentrail {
 namespace {
 
-double constant(TableReader& table, const std::string& key) {
-  const Expression expression = table.expression(key);
-  if (!expression.is_constant()) table.fail(key, "expected a number without parameters");
-  return expression.evaluate(std::span<const double>());
-}
-
 /// Frequencies in rad/s, at least 0.
 std::vector<double> frequencies(TableReader& table, const std::string& key) {
   std::vector<double> values;
@@ -29,10 +23,16 @@ std::vector<double> frequencies(TableReader& table, const std::string& key) {
 
 }  // namespace
 
+double constant_number(TableReader& table, const std::string& key) {
+  const Expression expression = table.expression(key);
+  if (!expression.is_constant()) table.fail(key, "expected a number without parameters");
+  return expression.evaluate(std::span<const double>());
+}
+
 ModeChoice read_mode_choice(TableReader table) {
   ModeChoice choice;
   if (table.has("count")) {
-    const double count = constant(table, "count");
+    const double count = constant_number(table, "count");
     if (!(count >= 1.0 && count <= 1e9 && count == std::floor(count)))
       table.fail("count", "expected a whole number of at least 1, found " + exact_text(count));
     choice.count = static_cast<int>(count);
@@ -44,7 +44,7 @@ ModeChoice read_mode_choice(TableReader table) {
     choice.band = FrequencyBand{ends[0], ends[1]};
   }
   if (table.has("damping_below")) {
-    choice.damping_below = constant(table, "damping_below");
+    choice.damping_below = constant_number(table, "damping_below");
     if (!(*choice.damping_below > -1.0 && *choice.damping_below <= 1.0))
       table.fail("damping_below",
                  "must lie above -1, and be 1 at most; found " + exact_text(*choice.damping_below));

@@ -1,15 +1,10 @@
 #include "continuation/trace/mode_names_option.hpp"
 
+#include "continuation/trace/mode_choice_option.hpp"
 #include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
 namespace {
-
-double amount(TableReader& shape, const std::string& coordinate) {
-  const Expression expression = shape.expression(coordinate);
-  if (!expression.is_constant()) shape.fail(coordinate, "expected a number without parameters");
-  return expression.evaluate(std::span<const double>());
-}
 
 GivenName read_name(TableReader& names, const std::string& name) {
   GivenName given{name};
@@ -18,7 +13,7 @@ GivenName read_name(TableReader& names, const std::string& name) {
     TableReader shape = names.table(name);
     bool moves = false;
     for (const std::string& coordinate : shape.keys()) {
-      given.shape.emplace_back(coordinate, amount(shape, coordinate));
+      given.shape.emplace_back(coordinate, constant_number(shape, coordinate));
       moves = moves || given.shape.back().second != 0.0;
     }
     if (!moves)

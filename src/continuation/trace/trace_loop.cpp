@@ -198,7 +198,6 @@ TraceResult TraceLoop::run() {
 
 TraceResult TraceLoop::resume(std::string_view bytes) {
   state_ = restore_state(bytes, problem_, options_);
-  apply(state_.settings, problem_);
   reach_ = parting_reach(options_, problem_.order);
   seconds_before_ = state_.result.seconds;
   begin_ = std::chrono::steady_clock::now();

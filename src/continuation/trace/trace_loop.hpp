@@ -26,7 +26,7 @@ class TraceLoop final : private Checkpoint {
 
  private:
   const TraceResult& so_far() const override { return state_.result; }
-  std::string save() const override { return save_state(state_); }
+  std::string save() const override { return save_state(state_, problem_, options_); }
 
   bool start();
   void prepare_to_follow();

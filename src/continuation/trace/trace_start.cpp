@@ -138,8 +138,7 @@ void Start::find_parts() {
 
 void Start::settle_order() {
   const int cheapest = cheapest_order({result_.n_independent, options_.certify}, options_.tolerance);
-  result_.order = state_.settings.order = options_.order.value_or(cheapest);
-  apply(state_.settings, problem_);
+  result_.order = problem_.order = options_.order.value_or(cheapest);
 }
 
 /// The reason why the spectrum at the start cannot be followed, if there is one.
@@ -200,8 +199,8 @@ std::optional<StartFailure> Start::find_modes() {
   const bool none_infinite = spectrum.n_infinite == 2 * pencil.size() - state_size(pencil.M[0]);
   const bool falls_apart = problem_.parts && problem_.parts->falls_apart();
   const bool at_once = settings.follows_all && none_infinite && !falls_apart;
-  settings.route =
-      cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, at_once, settings.order});
+  problem_.route =
+      cheapest_route(problem_.structure, {pencil.size(), result_.n_modes, at_once, problem_.order});
   settle_magnitudes(spectrum);
   modes_ = std::move(spectrum.modes);
   return std::nullopt;
@@ -285,14 +284,12 @@ void Start::settle_magnitudes(const Spectrum& spectrum) {
   const std::vector<double> sizes =
       typical_sizes(typical, std::min(static_cast<std::size_t>(result_.n_modes), typical.size()));
   const double median = std::max(sizes[sizes.size() / 2], rigid_share * spectrum.scale);
-  TraceSettings& settings = state_.settings;
-  settings.s_ref = result_.s_ref = options_.reference.value_or(reference_share * median);
+  problem_.s_ref = result_.s_ref = options_.reference.value_or(reference_share * median);
   const double largest =
       std::abs(std::max_element(typical.begin(), typical.end(), [](const auto& a, const auto& b) {
                  return std::abs(a.s) < std::abs(b.s);
                })->s);
-  settings.s_max = infinity_share * std::max(largest, settings.s_ref);
-  apply(settings, problem_);
+  problem_.s_max = infinity_share * std::max(largest, problem_.s_ref);
 }
 
 /// The spectrum at the end of the bridge over the branch point; empty if it has no modes.
@@ -335,8 +332,7 @@ void Start::lower_reference() {
       if (oscillates(s[i]) && std::abs(s[i]) > errors[i]) slowest = std::min(slowest, std::abs(s[i]));
     }
   }
-  state_.settings.s_ref = result_.s_ref = std::min(result_.s_ref, share_of_slowest * slowest);
-  apply(state_.settings, problem_);
+  problem_.s_ref = result_.s_ref = std::min(result_.s_ref, share_of_slowest * slowest);
 }
 
 std::optional<StartFailure> Start::make_node(const std::vector<StartingGroup>& groups) {

@@ -39,13 +39,6 @@ PathProblem trace_problem(const Model& model, const TraceOptions& options, Basis
   return problem;
 }
 
-void apply(const TraceSettings& settings, PathProblem& problem) {
-  problem.order = settings.order;
-  problem.s_ref = settings.s_ref;
-  problem.s_max = settings.s_max;
-  problem.route = settings.route;
-}
-
 double parting_reach(const TraceOptions& options, int order) {
   return parting_share * std::pow(options.tolerance, -1.0 / (2.0 * order + 2.0));
 }

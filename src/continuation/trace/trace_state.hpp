@@ -14,11 +14,8 @@
 
 namespace eigentrail {
 
-/// Settings that are determined at the first point for the whole trace; fields as in PathProblem.
+/// Which modes are followed, and how.
 struct TraceSettings {
-  int order = 3;
-  double s_ref = 1.0, s_max = 1e300;
-  ModeRoute route = ModeRoute::one_by_one;
   bool follows_all = false;  ///< every finite mode is followed
   bool leaves_out = false;   ///< there are others beside the followed modes and permanent zeros
   bool joins_pairs = false;  ///< a mode came near the real axis: conjugate pairs of parts are real parts now
@@ -66,20 +63,20 @@ struct TraceState {
   LeastKnown least_known = {};
 };
 
-/// The problem of a trace: the model along the traced parameter with the values in the options. `apply` adds
-/// the settings that are determined at the first point.
+/// The problem of a trace: the model along the traced parameter with the values in the options. Order, route
+/// and the magnitudes that count as zero and as infinite are determined at the first point.
 PathProblem trace_problem(const Model& model, const TraceOptions& options, BasisChoice basis);
-void apply(const TraceSettings& settings, PathProblem& problem);
 
 /// Distance in steps beyond which a meeting of two eigenvalues no longer keeps them in one block. The error
 /// of the interpolant of order q decreases like (h / 2d)^(2q+2), where d is the distance of the nearest
 /// meeting: only nearer meetings limit the step.
 double parting_reach(const TraceOptions& options, int order);
 
-/// The state as bytes.
-std::string save_state(const TraceState& state);
-/// The state from such bytes; sets the parts of the problem, which follow from it. Throws InputError if they
-/// are not a state of a trace of this problem.
+/// The state as bytes, with their checksum, the sizes of the problem and what the first point determined of
+/// it.
+std::string save_state(const TraceState& state, const PathProblem& problem, const TraceOptions& options);
+/// The state from such bytes; sets what the first point determined of the problem, and its parts. Throws
+/// InputError if they are damaged, or of a problem with other sizes or other matrices at the last point.
 TraceState restore_state(std::string_view bytes, PathProblem& problem, const TraceOptions& options);
 
 }  // namespace eigentrail
