@@ -28,6 +28,10 @@ constexpr double bystander_error = 0.5;
 /// A part of a block can be separated if its distance from the others is more than this many times its
 /// diameter.
 constexpr double isolated = 3.0;
+/// Eigenvalues that are joined because they are close stay together up to this multiple of their distance.
+/// With a smaller one they are joined again soon; a larger one keeps blocks, which cost more than single
+/// modes.
+constexpr double kept_together = 3.0;
 /// The other chart is preferred if its last term is less than this share of that of the present chart,
 /// relative to the eigenvalue, ...
 constexpr double much_smaller_term = 0.2;
@@ -186,6 +190,14 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
         Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
   }
   replace(node, members, std::move(*joined));
+  return true;
+}
+
+bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
+                   RunCounts& counts, Eigen::Index largest) {
+  if (!join(problem, node, track, {partner}, counts, largest)) return false;
+  double& inseparable = node.tracks.back().inseparable;
+  inseparable = std::max(inseparable, kept_together * partner.distance);
   return true;
 }
 
