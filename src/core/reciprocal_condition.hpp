@@ -8,7 +8,8 @@ namespace eigentrail {
 
 /// Estimate of the reciprocal condition number in the 1-norm; 0 if a pivot is zero, which Eigen's own
 /// estimate (3.4) does not detect.
-inline double reciprocal_condition(const Eigen::PartialPivLU<Matrix>& lu) {
+template <class Values>
+double reciprocal_condition(const Eigen::PartialPivLU<Values>& lu) {
   return lu.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0 ? lu.rcond() : 0.0;
 }
 

@@ -8,6 +8,8 @@
 #include <map>
 #include <span>
 
+#include "modes/ordinal.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -121,16 +123,6 @@ MassGroups by_name(const std::vector<MassCarrier>& masses) {
   MassGroups groups;
   for (const MassCarrier& mass : masses) groups[{mass.name, mass.wave.name}].push_back(&mass);
   return groups;
-}
-
-/// "1st", "2nd", "3rd", "4th", ...
-std::string ordinal(int i) {
-  const bool teens = i % 100 >= 11 && i % 100 <= 13;
-  const char* ending = teens || i % 10 > 3 || i % 10 == 0 ? "th"
-                       : i % 10 == 1                      ? "st"
-                       : i % 10 == 2                      ? "nd"
-                                                          : "rd";
-  return std::to_string(i) + ending;
 }
 
 }  // namespace

@@ -3,29 +3,24 @@
 #include <limits>
 #include <stdexcept>
 
+#include "eigentrail/modes/normalization.hpp"
 #include "eigentrail/modes/pencil_at_point.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// v^H M v of every column v, or zero if it is at the rounding level (1e-12 of |M| |v|^2).
-Vector mass_norms_squared(const ComplexMatrix& shapes, const ComplexMatrix& M_shapes, double norm_M) {
+Vector mass_norms_squared(const ComplexMatrix& shapes, const SystemMatrix& M) {
   Vector norms(shapes.cols());
-  for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
-    norms[i] = shapes.col(i).dot(M_shapes.col(i)).real();
-    if (norms[i] <= 1e-12 * norm_M * shapes.col(i).squaredNorm()) norms[i] = 0.0;
-  }
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i) norms[i] = mass_norm_squared(shapes.col(i), M);
   return norms;
 }
 
 }  // namespace
 
 Matrix modal_assurance(const ComplexMatrix& V, const ComplexMatrix& W, const SystemMatrix& M) {
-  const double norm_M = M.norm();
-  const ComplexMatrix MW = multiply(M, W);
-  const Vector v = mass_norms_squared(V, multiply(M, V), norm_M);
-  const Vector w = mass_norms_squared(W, MW, norm_M);
-  Matrix assurance = (V.adjoint() * MW).cwiseAbs2();
+  const Vector v = mass_norms_squared(V, M);
+  const Vector w = mass_norms_squared(W, M);
+  Matrix assurance = (V.adjoint() * multiply(M, W)).cwiseAbs2();
   for (Eigen::Index i = 0; i < V.cols(); ++i) {
     for (Eigen::Index j = 0; j < W.cols(); ++j) {
       if (v[i] > 0.0 && w[j] > 0.0) {

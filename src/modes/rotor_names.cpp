@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "eigentrail/model/projection.hpp"
+#include "modes/ordinal.hpp"
 #include "modes/shaft_shapes.hpp"
 
 namespace eigentrail {
@@ -93,12 +94,6 @@ ShaftMotion motion_on_the_axis(const Model& model, const ComplexVector& shape) {
 int sense_of(const Whirl& whirl) {
   const std::string word = whirl_in_words(whirl);
   return word == "forward" ? 1 : word == "backward" ? -1 : word == "mixed" ? 2 : 0;
-}
-
-std::string ordinal(int n) {
-  const int last = n % 10, tens = n / 10 % 10;
-  const char* ending = tens == 1 ? "th" : last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
-  return std::to_string(n) + ending;
 }
 
 /// "forward bending": a name without its number.

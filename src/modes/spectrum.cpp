@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "core/lapack.hpp"
@@ -87,14 +88,10 @@ bool is_singular(const Values& M, const Values& C, const Values& K) {
   return true;
 }
 
-/// Eigenvector of the eigenvalue in column j of LAPACK's real storage, of [z; mu z] with the velocities of
-/// all or some of the n coordinates: z, or with all velocities the larger half.
-ComplexVector right_vector(const Matrix& vectors, Eigen::Index j, bool is_complex, Eigen::Index n) {
-  const Eigen::Index size = vectors.rows();
-  ComplexVector both(size);
-  both.real() = vectors.col(j);
-  both.imag() = is_complex ? Vector(vectors.col(j + 1)) : Vector(Vector::Zero(size));
-  const bool upper = size < 2 * n || both.head(n).norm() >= both.tail(n).norm();
+/// The eigenvector z of [z; mu z] with the velocities of all or some of the n coordinates: z, or with all
+/// velocities the larger half.
+ComplexVector right_vector(const ComplexVector& both, Eigen::Index n) {
+  const bool upper = both.size() < 2 * n || both.head(n).norm() >= both.tail(n).norm();
   return (upper ? both.head(n) : both.tail(n)).normalized();
 }
 
@@ -122,79 +119,124 @@ void linearize(const Values& M, const Values& C, const Values& K, Values& a, Val
   }
 }
 
-/// All eigenvalues mu = alpha / beta of a scaled pencil as LAPACK returns them; conjugates are neighbours.
+/// All eigenvalues mu = alpha / beta of a pencil whose entries are such numbers; conjugates of a real pencil
+/// are neighbours, that with Im mu > 0 first.
+template <class Scalar>
 struct Homogeneous {
-  explicit Homogeneous(Eigen::Index count)
-      : alpha_real(count), alpha_imag(count), beta(Vector::Ones(count)) {}
+  explicit Homogeneous(Eigen::Index count) : alpha(count), beta(count) { beta.setOnes(); }
 
-  bool converged = false;
-  Eigen::Index left_out = 0;  ///< infinite eigenvalues of velocities that are no states
-  Vector alpha_real, alpha_imag, beta;
-  Matrix vectors = {};  ///< in LAPACK's real storage; empty if not requested
+  ComplexVector alpha;
+  Eigen::Vector<Scalar, Eigen::Dynamic> beta;
+  ComplexMatrix vectors = {};  ///< in columns, as far as Im mu >= 0; empty if not requested
 };
 
-Homogeneous by_qz(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vectors) {
-  Matrix a, b;
-  linearize(M, C, K, a, b);
-  Homogeneous all(a.rows());
-  all.left_out = 2 * M.rows() - a.rows();
-  if (with_vectors) all.vectors.resize(a.rows(), a.rows());
+template <class Scalar>
+using Eigenvalues = std::optional<Homogeneous<Scalar>>;  ///< empty if LAPACK does not converge
+
+/// Of a y = mu b y, by the QZ algorithm, which overwrites a and b.
+Eigenvalues<double> qz(Matrix& a, Matrix& b, bool with_vectors) {
   const auto size = static_cast<lapack_int>(a.rows());
-  const lapack_int info =
-      LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', with_vectors ? 'V' : 'N', size, a.data(), size, b.data(), size,
-                    all.alpha_real.data(), all.alpha_imag.data(), all.beta.data(), nullptr, 1,
-                    with_vectors ? all.vectors.data() : nullptr, size);
-  all.converged = info == 0;
-  return all;
-}
-
-/// Eigenvalues only, by the QR algorithm on the companion form with M inverted.
-Homogeneous by_qr(const Eigen::PartialPivLU<Matrix>& M, const Matrix& C, const Matrix& K) {
-  const Eigen::Index n = C.rows();
-  Matrix a = Matrix::Zero(2 * n, 2 * n);
-  a.topRightCorner(n, n).setIdentity();
-  a.bottomLeftCorner(n, n) = -M.solve(K);
-  a.bottomRightCorner(n, n) = -M.solve(C);
-  Homogeneous all(2 * n);
-  const auto size = static_cast<lapack_int>(2 * n);
-  all.converged = LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, all.alpha_real.data(),
-                                all.alpha_imag.data(), nullptr, 1, nullptr, 1) == 0;
-  return all;
-}
-
-/// Eigenvalues only, without damping: mu = +-sqrt(-lambda) with the eigenvalues lambda of K z = lambda M z.
-/// Those on the axes are exactly there.
-Homogeneous by_squares(const Matrix& M, const Matrix& K) {
-  const Eigen::Index n = M.rows();
-  Matrix a = K, b = M;
-  Vector real(n), imag(n), beta(n);
-  const auto size = static_cast<lapack_int>(n);
-  Homogeneous all(2 * n);
-  all.converged = LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, b.data(), size, real.data(),
-                                imag.data(), beta.data(), nullptr, 1, nullptr, 1) == 0;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const Complex alpha(real[j], imag[j]);
-    const bool is_infinite = std::abs(beta[j]) <= infinite * std::abs(alpha);
-    // Real numbers by themselves: those with a zero imaginary part have no sign of it that could be lost.
-    const Complex mu = is_infinite             ? Complex(1.0)
-                       : imag[j] != 0.0        ? std::sqrt(-alpha / beta[j])
-                       : real[j] / beta[j] > 0 ? Complex(0.0, std::sqrt(real[j] / beta[j]))
-                                               : Complex(std::sqrt(-real[j] / beta[j]));
-    for (const Eigen::Index at : {2 * j, 2 * j + 1}) {
-      const double sign = at == 2 * j ? 1.0 : -1.0;
-      all.alpha_real[at] = sign * mu.real();
-      all.alpha_imag[at] = sign * mu.imag();
-      all.beta[at] = is_infinite ? 0.0 : 1.0;
-    }
+  Homogeneous<double> all(size);
+  Vector real(size), imag(size);
+  Matrix V;  // of a conjugate pair, the real part of the vector and the imaginary part are neighbours
+  if (with_vectors) V.resize(size, size);
+  const lapack_int info = LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', with_vectors ? 'V' : 'N', size, a.data(), size,
+                                        b.data(), size, real.data(), imag.data(), all.beta.data(), nullptr, 1,
+                                        with_vectors ? V.data() : nullptr, size);
+  if (info != 0) return std::nullopt;
+  all.alpha.real() = real;
+  all.alpha.imag() = imag;
+  all.vectors = V.cast<Complex>();
+  for (Eigen::Index j = 0; j < V.cols(); ++j) {
+    if (imag[j] > 0.0) all.vectors.col(j).imag() = V.col(j + 1);
   }
   return all;
 }
 
-Homogeneous eigenvalues_of(const Matrix& M, const Matrix& C, const Matrix& K) {
-  if (C.isZero(0.0)) return by_squares(M, K);
-  const Equilibration<Matrix> equal(M);
-  const Eigen::PartialPivLU<Matrix> lu(equal.of(M));
-  return reciprocal_condition(lu) > well_conditioned ? by_qr(lu, equal.of(C), equal.of(K))
+Eigenvalues<Complex> qz(ComplexMatrix& a, ComplexMatrix& b, bool with_vectors) {
+  const auto size = static_cast<lapack_int>(a.rows());
+  Homogeneous<Complex> all(size);
+  if (with_vectors) all.vectors.resize(size, size);
+  const lapack_int info = LAPACKE_zggev(LAPACK_COL_MAJOR, 'N', with_vectors ? 'V' : 'N', size, a.data(), size,
+                                        b.data(), size, all.alpha.data(), all.beta.data(), nullptr, 1,
+                                        with_vectors ? all.vectors.data() : nullptr, size);
+  return info == 0 ? std::optional(std::move(all)) : std::nullopt;
+}
+
+/// Of a y = mu y, by the QR algorithm, which overwrites a.
+Eigenvalues<double> qr(Matrix& a) {
+  const auto size = static_cast<lapack_int>(a.rows());
+  Homogeneous<double> all(size);
+  Vector real(size), imag(size);
+  if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, real.data(), imag.data(), nullptr, 1,
+                    nullptr, 1) != 0)
+    return std::nullopt;
+  all.alpha.real() = real;
+  all.alpha.imag() = imag;
+  return all;
+}
+
+Eigenvalues<Complex> qr(ComplexMatrix& a) {
+  const auto size = static_cast<lapack_int>(a.rows());
+  Homogeneous<Complex> all(size);
+  const lapack_int info = LAPACKE_zgeev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, all.alpha.data(),
+                                        nullptr, 1, nullptr, 1);
+  return info == 0 ? std::optional(std::move(all)) : std::nullopt;
+}
+
+template <class Values>
+Eigenvalues<typename Values::Scalar> by_qz(const Values& M, const Values& C, const Values& K,
+                                           bool with_vectors) {
+  Values a, b;
+  linearize(M, C, K, a, b);
+  return qz(a, b, with_vectors);
+}
+
+/// Eigenvalues only, by the QR algorithm on the companion form with M inverted.
+template <class Values>
+Eigenvalues<typename Values::Scalar> by_qr(const Eigen::PartialPivLU<Values>& M, const Values& C,
+                                           const Values& K) {
+  const Eigen::Index n = C.rows();
+  Values a = Values::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = -M.solve(K);
+  a.bottomRightCorner(n, n) = -M.solve(C);
+  return qr(a);
+}
+
+/// Eigenvalues only, without damping: mu = +-sqrt(-lambda) with the eigenvalues lambda of K z = lambda M z.
+/// Those on the axes are exactly there.
+Eigenvalues<double> by_squares(const Matrix& M, const Matrix& K) {
+  Matrix a = K, b = M;
+  const Eigenvalues<double> squares = qz(a, b, false);
+  if (!squares) return std::nullopt;
+  const Eigen::Index n = M.rows();
+  Homogeneous<double> all(2 * n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Complex alpha = squares->alpha[j];
+    const double beta = squares->beta[j];
+    const bool is_infinite = std::abs(beta) <= infinite * std::abs(alpha);
+    // Real numbers by themselves: those with a zero imaginary part have no sign of it that could be lost.
+    const double square = alpha.real() / beta;
+    const Complex mu = is_infinite           ? Complex(1.0)
+                       : alpha.imag() != 0.0 ? std::sqrt(-alpha / beta)
+                       : square > 0.0        ? Complex(0.0, std::sqrt(square))
+                                             : Complex(std::sqrt(-square));
+    all.alpha[2 * j] = mu;
+    all.alpha[2 * j + 1] = -mu;
+    all.beta.segment(2 * j, 2).setConstant(is_infinite ? 0.0 : 1.0);
+  }
+  return all;
+}
+
+template <class Values>
+Eigenvalues<typename Values::Scalar> eigenvalues_of(const Values& M, const Values& C, const Values& K) {
+  if constexpr (std::is_same_v<Values, Matrix>) {
+    if (C.isZero(0.0)) return by_squares(M, K);
+  }
+  const Equilibration<Values> equal(M);
+  const Eigen::PartialPivLU<Values> lu(equal.of(M));
+  return reciprocal_condition(lu) > well_conditioned ? by_qr<Values>(lu, equal.of(C), equal.of(K))
                                                      : by_qz(M, C, K, false);
 }
 
@@ -207,23 +249,26 @@ void sort(Spectrum& spectrum) {
                    });
 }
 
-/// Collects the finite modes in the order of increasing |s|.
-void take_modes(const Homogeneous& all, Eigen::Index n, Spectrum& spectrum) {
-  spectrum.n_infinite = static_cast<int>(all.left_out);
+/// Collects the finite modes with Im s >= 0 in the order of increasing |s|; the others are conjugates of
+/// them, or in a complex part of modes of the conjugate part.
+template <class Scalar>
+void take_modes(const Homogeneous<Scalar>& all, Eigen::Index n, Spectrum& spectrum) {
+  spectrum.n_infinite = static_cast<int>(2 * n - all.beta.size());  // velocities that are no states
   for (Eigen::Index j = 0; j < all.beta.size(); ++j) {
-    const Complex alpha(all.alpha_real[j], all.alpha_imag[j]);
-    if (std::abs(all.beta[j]) <= infinite * std::abs(alpha)) {
+    if (std::abs(all.beta[j]) <= infinite * std::abs(all.alpha[j])) {
       ++spectrum.n_infinite;
-    } else if (alpha.imag() >= 0.0) {
-      spectrum.modes.push_back({spectrum.scale * alpha / all.beta[j], {}});
-      if (all.vectors.size() > 0)
-        spectrum.modes.back().z = right_vector(all.vectors, j, alpha.imag() > 0.0, n);
+      continue;
     }
+    const Complex s = spectrum.scale * all.alpha[j] / all.beta[j];
+    if (s.imag() < 0.0) continue;
+    spectrum.modes.push_back({s, {}});
+    if (all.vectors.size() > 0) spectrum.modes.back().z = right_vector(all.vectors.col(j), n);
   }
   sort(spectrum);
 }
 
-Spectrum solve(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vectors) {
+template <class Values>
+Spectrum solve(const Values& M, const Values& C, const Values& K, bool with_vectors) {
   Spectrum spectrum;
   if (M.rows() == 0) {
     spectrum.status = SpectrumStatus::complete;
@@ -231,17 +276,17 @@ Spectrum solve(const Matrix& M, const Matrix& C, const Matrix& K, bool with_vect
   }
   const Scaling scaling = fan_lin_van_dooren(M, C, K);
   spectrum.scale = scaling.gamma;
-  const Matrix scaled_M = scaling.delta * scaling.gamma * scaling.gamma * M;
-  const Matrix scaled_C = scaling.delta * scaling.gamma * C;
-  const Matrix scaled_K = scaling.delta * K;
+  const Values scaled_M = scaling.delta * scaling.gamma * scaling.gamma * M;
+  const Values scaled_C = scaling.delta * scaling.gamma * C;
+  const Values scaled_K = scaling.delta * K;
   if (is_singular(scaled_M, scaled_C, scaled_K)) {
     spectrum.status = SpectrumStatus::singular_pencil;
     return spectrum;
   }
-  const Homogeneous all =
+  const auto all =
       with_vectors ? by_qz(scaled_M, scaled_C, scaled_K, true) : eigenvalues_of(scaled_M, scaled_C, scaled_K);
-  if (!all.converged) return spectrum;
-  take_modes(all, M.rows(), spectrum);
+  if (!all) return spectrum;
+  take_modes(*all, M.rows(), spectrum);
   spectrum.status = SpectrumStatus::complete;
   return spectrum;
 }
@@ -272,91 +317,25 @@ void add_copies(int copies, Spectrum& spectrum) {
   spectrum.n_infinite *= 1 + copies;
 }
 
-/// The eigenvector of a complex part from that of its companion form.
-ComplexVector vector_of_complex_part(const ComplexVector& both, Eigen::Index m, int complex_sign) {
-  const bool upper = both.size() < 2 * m || both.head(m).norm() >= both.tail(m).norm();
-  return from_complex_coordinates(ComplexVector(upper ? both.head(m) : both.tail(m)).normalized(),
-                                  complex_sign);
+/// Calls `solve` with the matrices M, C and K of a pencil that does not fall apart, which are complex for a
+/// complex part.
+template <class Solve>
+auto with_matrices(const ReducedPencil& pencil, const Solve& solve) {
+  const auto block = [&](const Matrix& A) { return complex_block(A, pencil.complex_sign); };
+  return pencil.complex_sign == 0 ? solve(pencil.M[0], pencil.C[0], pencil.K[0])
+                                  : solve(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]));
 }
 
-/// alpha and beta of all eigenvalues of a complex pencil, with the vectors of its companion form if those are
-/// asked for (`vectors` then has its size). Empty if LAPACK does not converge.
-std::optional<std::pair<ComplexVector, ComplexVector>> complex_qz(const ComplexMatrix& M,
-                                                                  const ComplexMatrix& C,
-                                                                  const ComplexMatrix& K,
-                                                                  ComplexMatrix* vectors) {
-  ComplexMatrix a, b;
-  linearize(M, C, K, a, b);
-  const auto size = static_cast<lapack_int>(a.rows());
-  ComplexVector alpha(size), beta(size);
-  if (vectors != nullptr) vectors->resize(size, size);
-  const lapack_int info = LAPACKE_zggev(LAPACK_COL_MAJOR, 'N', vectors != nullptr ? 'V' : 'N', size, a.data(),
-                                        size, b.data(), size, alpha.data(), beta.data(), nullptr, 1,
-                                        vectors != nullptr ? vectors->data() : nullptr, size);
-  if (info != 0) return std::nullopt;
-  return std::pair(std::move(alpha), std::move(beta));
-}
-
-/// The same without vectors, by the QR algorithm on the companion form with M inverted.
-std::optional<std::pair<ComplexVector, ComplexVector>> complex_qr(const Eigen::PartialPivLU<ComplexMatrix>& M,
-                                                                  const ComplexMatrix& C,
-                                                                  const ComplexMatrix& K) {
-  const Eigen::Index m = C.rows();
-  ComplexMatrix a = ComplexMatrix::Zero(2 * m, 2 * m);
-  a.topRightCorner(m, m).setIdentity();
-  a.bottomLeftCorner(m, m) = -M.solve(K);
-  a.bottomRightCorner(m, m) = -M.solve(C);
-  const auto size = static_cast<lapack_int>(2 * m);
-  ComplexVector values(size);
-  if (LAPACKE_zgeev(LAPACK_COL_MAJOR, 'N', 'N', size, a.data(), size, values.data(), nullptr, 1, nullptr,
-                    1) != 0)
-    return std::nullopt;
-  return std::pair(std::move(values), ComplexVector(ComplexVector::Ones(size)));
-}
-
-/// The eigenvalues with Im s >= 0 of a complex part: those of its complex matrices.
-Spectrum solve_complex_part(const ReducedPencil& pencil, bool with_vectors) {
-  Spectrum spectrum;
-  const Scaling scaling = fan_lin_van_dooren(pencil.M[0], pencil.C[0], pencil.K[0]);
-  spectrum.scale = scaling.gamma;
-  const auto block = [&](double factor, const Matrix& A) {
-    return ComplexMatrix(scaling.delta * factor * complex_block(A, pencil.complex_sign));
-  };
-  const ComplexMatrix M = block(scaling.gamma * scaling.gamma, pencil.M[0]);
-  const ComplexMatrix C = block(scaling.gamma, pencil.C[0]), K = block(1.0, pencil.K[0]);
-  if (is_singular(M, C, K)) {
-    spectrum.status = SpectrumStatus::singular_pencil;
-    return spectrum;
-  }
-  const Equilibration<ComplexMatrix> equal(M);
-  const Eigen::PartialPivLU<ComplexMatrix> lu(equal.of(M));
-  ComplexMatrix vectors;
-  const auto all = !with_vectors && lu.rcond() > well_conditioned
-                       ? complex_qr(lu, equal.of(C), equal.of(K))
-                       : complex_qz(M, C, K, with_vectors ? &vectors : nullptr);
-  if (!all) return spectrum;
-  const auto& [alpha, beta] = *all;
-  spectrum.n_infinite = static_cast<int>(2 * M.rows() - alpha.size());
-  for (Eigen::Index j = 0; j < alpha.size(); ++j) {
-    if (std::abs(beta[j]) <= infinite * std::abs(alpha[j])) {
-      ++spectrum.n_infinite;
-      continue;
-    }
-    const Complex s = spectrum.scale * alpha[j] / beta[j];
-    if (s.imag() < 0.0) continue;  // its conjugate is a mode of the conjugate part
-    spectrum.modes.push_back({s, {}});
-    if (with_vectors)
-      spectrum.modes.back().z = vector_of_complex_part(vectors.col(j), M.rows(), pencil.complex_sign);
-  }
-  sort(spectrum);
-  spectrum.status = SpectrumStatus::complete;
-  return spectrum;
+/// Vectors of such matrices, n x k, in the coordinates of the pencil.
+ComplexMatrix in_pencil(const ReducedPencil& pencil, const ComplexMatrix& Z) {
+  return pencil.complex_sign == 0 ? Z : from_complex_coordinates(Z, pencil.complex_sign);
 }
 
 Spectrum solve_parts(const ReducedPencil& pencil, bool with_vectors) {
   if (pencil.parts.empty()) {
-    Spectrum spectrum = pencil.complex_sign != 0 ? solve_complex_part(pencil, with_vectors)
-                                                 : solve(pencil.M[0], pencil.C[0], pencil.K[0], with_vectors);
+    Spectrum spectrum = with_matrices(
+        pencil, [&](const auto& M, const auto& C, const auto& K) { return solve(M, C, K, with_vectors); });
+    for (StartingMode& mode : spectrum.modes) mode.z = in_pencil(pencil, mode.z);
     add_copies(pencil.copies, spectrum);
     return spectrum;
   }
@@ -412,10 +391,9 @@ ComplexVector eigenvector_near(const Matrix& M, const Matrix& C, const Matrix& K
 }
 
 ComplexVector eigenvector_near(const ReducedPencil& pencil, Complex s, double s_ref) {
-  if (pencil.complex_sign == 0) return vector_near(pencil.M[0], pencil.C[0], pencil.K[0], s, s_ref);
-  const auto block = [&](const Matrix& A) { return complex_block(A, pencil.complex_sign); };
-  return from_complex_coordinates(
-      vector_near(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), s, s_ref), pencil.complex_sign);
+  return in_pencil(pencil, with_matrices(pencil, [&](const auto& M, const auto& C, const auto& K) {
+                     return vector_near(M, C, K, s, s_ref);
+                   }));
 }
 
 namespace {
@@ -482,10 +460,10 @@ InvariantPair invariant_subspace(const ReducedPencil& pencil, Complex centre, Ei
                                  double least_scale) {
   if (pencil.complex_sign == 0)
     return invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], centre, k, is_real, least_scale);
-  const auto block = [&](const Matrix& A) { return complex_block(A, pencil.complex_sign); };
-  InvariantPair pair =
-      subspace_of(block(pencil.M[0]), block(pencil.C[0]), block(pencil.K[0]), centre, k, false, least_scale);
-  pair.Z = from_complex_coordinates(pair.Z, pencil.complex_sign);
+  InvariantPair pair = with_matrices(pencil, [&](const auto& M, const auto& C, const auto& K) {
+    return subspace_of(M, C, K, centre, k, false, least_scale);
+  });
+  pair.Z = in_pencil(pencil, pair.Z);
   return pair;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/connected_groups.hpp"
 #include "core/products.hpp"
 #include "modes/real_blocks.hpp"
 
@@ -166,19 +167,9 @@ bool suffices(double size, double last, double tolerance) {
 /// Groups of columns that mix strongly in a first-order correction: close modes with a prediction error
 /// larger than their distance.
 std::vector<Columns> turning(const Matrix& E) {
-  const Eigen::Index n = E.cols();
-  Columns group(static_cast<std::size_t>(n));
-  std::iota(group.begin(), group.end(), 0);
-  for (Eigen::Index b = 0; b < n; ++b) {
-    for (Eigen::Index a = 0; a < n; ++a) {
-      if (std::abs(E(a, b)) <= largest_turn) continue;
-      const auto from = group[static_cast<std::size_t>(a)], to = group[static_cast<std::size_t>(b)];
-      std::replace(group.begin(), group.end(), from, to);
-    }
-  }
-  std::vector<Columns> members(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i)
-    members[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])].push_back(i);
+  Groups members = connected_groups(E.cols(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::max(std::abs(E(a, b)), std::abs(E(b, a))) > largest_turn;
+  });
   std::erase_if(members, [](const Columns& columns) { return columns.size() < 2; });
   return members;
 }

@@ -4,10 +4,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "core/connected_groups.hpp"
 #include "core/products.hpp"
 #include "eigentrail/reduction/complex_blocks.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
@@ -57,20 +57,11 @@ PartMatrices matrices_of_part(const CoefficientMatrices& coefficients, Matrix le
 /// Indices that are connected with the first one by entries of H.
 std::vector<Eigen::Index> connected_with_first(const ComplexMatrix& H) {
   const double least = weak * H.cwiseAbs().maxCoeff();
-  std::vector<Eigen::Index> members{0};
-  std::vector<bool> is_member(static_cast<std::size_t>(H.rows()), false);
-  is_member[0] = true;
-  for (std::size_t next = 0; next < members.size(); ++next) {
-    const Eigen::Index i = members[next];
-    for (Eigen::Index j = 0; j < H.rows(); ++j) {
-      if (is_member[static_cast<std::size_t>(j)] || std::max(std::abs(H(i, j)), std::abs(H(j, i))) <= least)
-        continue;
-      is_member[static_cast<std::size_t>(j)] = true;
-      members.push_back(j);
-    }
-  }
-  std::sort(members.begin(), members.end());
-  return members;
+  const Groups groups = connected_groups(H.rows(), [&](Eigen::Index i, Eigen::Index j) {
+    return std::max(std::abs(H(i, j)), std::abs(H(j, i))) > least;
+  });
+  return *std::find_if(groups.begin(), groups.end(),
+                       [](const auto& members) { return members.front() == 0; });
 }
 
 /// Whether all eigenvalues are different from each other and from the real axis.

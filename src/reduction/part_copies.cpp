@@ -125,23 +125,13 @@ std::optional<std::pair<Matrix, Matrix>> change_of_coordinates(const OwnMatrices
   return std::pair(std::move(S), std::move(Y));
 }
 
-/// Without entries that are rounding of the largest one in their column.
-Matrix without_rounding(Matrix coordinates) {
-  constexpr double rounding = 2e-15;
-  for (auto column : coordinates.colwise()) {
-    const double least = rounding * column.cwiseAbs().maxCoeff();
-    column = (column.array().abs() > least).select(column, 0.0).eval();
-  }
-  return coordinates;
-}
-
 /// A part in coordinates in which it equals part `a`; empty if there are none.
 std::optional<PartCopy> as_copy(const std::vector<Matrix>& all, const OwnMatrices& a, const OwnMatrices& b,
                                 const PartCopy& part, double magnified, Random random) {
   const auto change = change_of_coordinates(a, b, random);
   if (!change) return std::nullopt;
   const auto& [S, Y] = *change;
-  PartCopy copy{without_rounding(part.right * S), without_rounding(part.left * Y),
+  PartCopy copy{without_rounding_of_columns(part.right * S), without_rounding_of_columns(part.left * Y),
                 S.inverse() * part.inverse};
   const double allowed = magnified * equal * static_cast<double>(S.rows());
   for (std::size_t k = 0; k < all.size(); ++k) {

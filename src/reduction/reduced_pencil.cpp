@@ -15,18 +15,7 @@ std::size_t last_order(int order, std::size_t sum_of_sizes, std::size_t factors)
   return std::min<std::size_t>(static_cast<std::size_t>(order), sum_of_sizes - factors);
 }
 
-void add_product(Matrix& sum, const Matrix& B, const Matrix& X) {
-  sum.noalias() += B * X;
-}
-void add_product(Matrix& sum, const SystemMatrix& B, const Matrix& X) {
-  B.add_product_to(sum, X);
-}
-
 /// left^T B right by sparse matrices, if all factors have such coefficients.
-std::optional<MatrixSeries> sparse_congruence(const MatrixSeries&, const MatrixSeries&, const MatrixSeries&,
-                                              int) {
-  return std::nullopt;
-}
 std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
                                               const MatrixSeries& right, int order) {
   if (!B[0].is_sparse()) return std::nullopt;
@@ -39,16 +28,6 @@ std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const Sy
   return congruence(*sparse_left, sparse_B, *sparse_right, static_cast<std::size_t>(order) + 1);
 }
 
-bool is_sparse(const MatrixSeries&) {
-  return false;
-}
-bool is_sparse(const SystemSeries& B) {
-  return B[0].is_sparse();
-}
-
-MatrixSeries dense_terms(const MatrixSeries& B, std::size_t count) {
-  return {B.begin(), B.begin() + static_cast<std::ptrdiff_t>(count)};
-}
 MatrixSeries dense_terms(const SystemSeries& B, std::size_t count) {
   MatrixSeries result;
   for (std::size_t i = 0; i < count; ++i) result.push_back(B[i].dense());
@@ -56,17 +35,17 @@ MatrixSeries dense_terms(const SystemSeries& B, std::size_t count) {
 }
 
 /// The first `count` coefficients of B(h) T(h).
-template <class Coefficient>
-MatrixSeries times_basis(const std::vector<Coefficient>& B, const MatrixSeries& T, std::size_t count) {
+MatrixSeries times_basis(const SystemSeries& B, const MatrixSeries& T, std::size_t count) {
   MatrixSeries product(count, Matrix::Zero(B[0].rows(), T[0].cols()));
   for (std::size_t i = 0; i < B.size(); ++i) {
-    for (std::size_t j = 0; j < T.size() && i + j < count; ++j) add_product(product[i + j], B[i], T[j]);
+    for (std::size_t j = 0; j < T.size() && i + j < count; ++j) B[i].add_product_to(product[i + j], T[j]);
   }
   return product;
 }
 
-template <class Coefficient>
-MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficient>& B, int order) {
+}  // namespace
+
+MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order) {
   const MatrixSeries& T = basis.T;
   if (basis.is_identity) return dense_terms(B, last_order(order, B.size(), 1) + 1);
   if (auto sparse = sparse_congruence(T, B, T, order)) return *sparse;
@@ -74,7 +53,7 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
   // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
   // even in the last bit.
-  if (is_sparse(B)) return transposed_product(T, BT, count);
+  if (B[0].is_sparse()) return transposed_product(T, BT, count);
   MatrixSeries result(count, Matrix::Zero(T[0].cols(), T[0].cols()));
   for (std::size_t i = 0; i < T.size(); ++i) {
     for (std::size_t j = 0; j < BT.size() && i + j < result.size(); ++j) {
@@ -84,14 +63,8 @@ MatrixSeries project_any(const TangentBasis& basis, const std::vector<Coefficien
   return result;
 }
 
-}  // namespace
-
 MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
-  return project_any(basis, B, order);
-}
-
-MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order) {
-  return project_any(basis, B, order);
+  return project(basis, SystemSeries(B.begin(), B.end()), order);
 }
 
 namespace {
@@ -134,7 +107,7 @@ Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
   }
   Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
   Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
-  add_product(product, B, parts.right);
+  B.add_product_to(product, parts.right);
   for (const IndependentParts::Range& range : parts.ranges) {
     if (range.complex_sign < 0) continue;  // has the same matrices
     result.block(range.first, range.first, range.size, range.size).noalias() =
@@ -156,7 +129,8 @@ MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, c
     return result;
   }
   std::optional<MatrixSeries> sparse;
-  if (is_sparse(B)) sparse = sparse_congruence({parts.left}, B, {parts.right}, static_cast<int>(count) - 1);
+  if (B[0].is_sparse())
+    sparse = sparse_congruence({parts.left}, B, {parts.right}, static_cast<int>(count) - 1);
   for (std::size_t k = 0; k < count; ++k)
     result[k] = (sparse ? (*sparse)[k] : blocks_of(parts, B[k])).cwiseProduct(pattern);
   return result;

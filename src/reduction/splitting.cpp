@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
+#include "core/connected_groups.hpp"
 #include "core/orthonormal.hpp"
 #include "core/products.hpp"
 #include "core/singular_vectors.hpp"
@@ -63,35 +63,7 @@ Matrix random_combination(const std::vector<Matrix>& all, Random& random) {
 
 namespace {
 
-/// Groups of indices, as lists, from a label per index.
-std::vector<std::vector<Eigen::Index>> groups_of(const std::vector<Eigen::Index>& labels) {
-  std::vector<std::vector<Eigen::Index>> groups;
-  for (Eigen::Index label = 0; label < static_cast<Eigen::Index>(labels.size()); ++label) {
-    std::vector<Eigen::Index> members;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] == label) members.push_back(static_cast<Eigen::Index>(i));
-    }
-    if (!members.empty()) groups.push_back(std::move(members));
-  }
-  return groups;
-}
-
-/// Groups of indices that are connected, directly or by others.
-template <class Connected>
-std::vector<std::vector<Eigen::Index>> connected_groups(Eigen::Index count, const Connected& connected) {
-  std::vector<Eigen::Index> labels(static_cast<std::size_t>(count));
-  std::iota(labels.begin(), labels.end(), Eigen::Index{0});
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      const Eigen::Index a = labels[static_cast<std::size_t>(i)];
-      const Eigen::Index b = labels[static_cast<std::size_t>(j)];
-      if (a != b && connected(i, j)) std::replace(labels.begin(), labels.end(), a, b);
-    }
-  }
-  return groups_of(labels);
-}
-
-std::vector<std::vector<Eigen::Index>> close_groups(const ComplexVector& values, double distance) {
+Groups close_groups(const ComplexVector& values, double distance) {
   return connected_groups(values.size(), [&](Eigen::Index i, Eigen::Index j) {
     return std::abs(values[i] - values[j]) <= distance;
   });
@@ -123,8 +95,7 @@ UnknownsOfX unknowns_of(const std::vector<Eigen::Index>& members, const std::vec
 
 /// The eigenspaces of eigenvalues that may be equal. Empty, and noted in the search, if one of them has too
 /// many unknowns in X by itself.
-std::optional<std::vector<std::vector<Eigen::Index>>> eigenspace_groups(const ComplexVector& values,
-                                                                        Search& search) {
+std::optional<Groups> eigenspace_groups(const ComplexVector& values, Search& search) {
   auto spaces = close_groups(values, possibly_equal * values.cwiseAbs().maxCoeff());
   search.is_too_large = std::any_of(spaces.begin(), spaces.end(), [](const auto& space) {
     return static_cast<Eigen::Index>(space.size() * space.size()) > most_unknowns;
@@ -136,8 +107,7 @@ std::optional<std::vector<std::vector<Eigen::Index>>> eigenspace_groups(const Co
 /// A random X with X H = H X, block diagonal in the given groups of coordinates (eigenspaces of another
 /// matrix with which X commutes). Empty if that costs too much.
 template <class Values>
-std::optional<Values> random_commuting(const Values& H, const std::vector<std::vector<Eigen::Index>>& spaces,
-                                       Search& search) {
+std::optional<Values> random_commuting(const Values& H, const Groups& spaces, Search& search) {
   using Scalar = typename Values::Scalar;
   const auto count = static_cast<Eigen::Index>(spaces.size());
   const auto block = [&](Eigen::Index i, Eigen::Index j) {
@@ -277,7 +247,7 @@ ComplexMatrix invariant_space(const Matrix& G, Complex s, Eigen::Index size, Ran
 /// eigenvectors of equal eigenvalues may be nearly parallel; a basis of their invariant space is not. Empty
 /// if an eigenspace has fewer dimensions than eigenvalues.
 ComplexMatrix eigenspaces(const Matrix& G, const ComplexVector& values, const ComplexMatrix& vectors,
-                          const std::vector<std::vector<Eigen::Index>>& groups, Random& random) {
+                          const Groups& groups, Random& random) {
   const Eigen::Index n = G.rows();
   ComplexMatrix V(n, n);
   for (const auto& members : groups) {

@@ -262,15 +262,11 @@ Completion complete(const PathProblem& problem, bool follows_all, PathNode& node
   found.doubtful = has_doubtful_track(node, problem);
   if (!follows_all || checksum_holds(node, problem)) return found;
   for (const StartingGroup& group : missing_groups(problem, node, counts)) {
-    InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
-                                      problem.s_ref, problem.corrector, counts.modes);
-    if (pair.status != PairStatus::converged) continue;
-    Track track = differentiate_track(problem, node, std::move(pair), counts);
-    track.roots = in_order_of(group.roots, track.roots);
-    track.modes.clear();
-    for (const int mode : group.modes) track.modes.push_back(mode >= 0 ? numbers.count++ : mode);
-    track.arriving = track.modes;
-    node.tracks.push_back(std::move(track));
+    std::optional<Track> track = track_of(problem, node, group, counts);
+    if (!track) continue;
+    for (int& mode : track->modes) mode = mode >= 0 ? numbers.count++ : mode;
+    track->arriving = track->modes;
+    node.tracks.push_back(std::move(*track));
     ++found.added;
   }
   return found;

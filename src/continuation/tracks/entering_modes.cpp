@@ -91,18 +91,12 @@ EnteringModes entering_modes(const PathProblem& problem, const ModeChoice& choic
   EnteringModes found{{}, is_whole ? 0 : -1};
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(needed_end - others.begin()), problem.s_ref)) {
-    InvariantPair pair = correct_pair(PencilAtPoint(node.pencil.of(group.pair.part)), group.pair,
-                                      problem.s_ref, problem.corrector, counts.modes);
-    std::optional<Track> track;
-    if (pair.status == PairStatus::converged)
-      track = differentiate_track(problem, node, std::move(pair), counts);
-    if (!track || !track->functions.allFinite()) {
+    std::optional<Track> track = track_of(problem, node, group, counts);
+    if (!track) {
       if (may_grow) found.growing += growing_roots(group.roots);
       continue;
     }
     if (is_followed(problem, node, *track)) continue;
-    track->roots = in_order_of(group.roots, track->roots);
-    track->modes = group.modes;
     if (dismiss_unneeded(problem, is_wanted, *track)) found.tracks.push_back(std::move(*track));
   }
   return found;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -22,14 +23,13 @@ bool coincide(const Track& track) {
 std::vector<ComplexVector> eigenvalue_series(const Track& track, Chart chart) {
   std::vector<ComplexVector> all;
   if (coincide(track)) {
-    const ComplexVector mean = mean_series(track.series.Lambda);
-    if (track.pair.chart != chart && mean[0] == 0.0) return {};
-    return {track.pair.chart == chart ? mean : reciprocal_series(mean)};
+    const ComplexVector mean = in_chart(mean_series(track.series.Lambda), track, chart);
+    if (mean.size() == 0) return {};
+    return {mean};
   }
   for (const Complex root : track.roots) {
-    ComplexVector series = root_series(track.functions, root);
-    if (series.size() == 0 || (track.pair.chart != chart && series[0] == 0.0)) return {};
-    all.push_back(track.pair.chart == chart ? series : reciprocal_series(series));
+    all.push_back(root_series(track, root, chart));
+    if (all.back().size() == 0) return {};
   }
   return all;
 }

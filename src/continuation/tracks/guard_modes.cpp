@@ -201,17 +201,14 @@ bool join_unfollowed(const PathProblem& problem, PathNode& node, std::size_t tra
   add_neighbours(problem, node, track, counts);
   std::vector<Partner> partners = limiting_partners(node, track, h, reach);
   std::erase_if(partners, [&](const Partner& one) { return one.conjugate || one.track < followed; });
-  double kept = 0.0;
-  if (partners.empty()) {
+  bool joined = false;
+  if (!partners.empty()) {
+    joined = join(problem, node, track, {partners.front()}, counts);
+  } else {
     const std::optional<Partner> nearest = nearest_partner(node, track);
-    if (nearest && !nearest->conjugate && nearest->track >= followed && may_limit(node, track, *nearest)) {
-      partners.push_back(*nearest);
-      kept = kept_together * nearest->distance;
-    }
+    joined = nearest && !nearest->conjugate && nearest->track >= followed &&
+             may_limit(node, track, *nearest) && join_and_keep(problem, node, track, *nearest, counts);
   }
-  if (!partners.empty()) partners.resize(1);
-  const bool joined = !partners.empty() && join(problem, node, track, partners, counts);
-  if (joined) node.tracks.back().inseparable = std::max(node.tracks.back().inseparable, kept);
   remove_guards(node);
   return joined;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -38,6 +40,16 @@ Eigen::Index nearest_root(const ComplexVector& roots, Complex s) {
 
 Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member) {
   return nearest_root(roots, std::conj(roots[member]));
+}
+
+ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {
+  if (track.pair.chart == chart) return series;
+  return series[0] == 0.0 ? ComplexVector() : reciprocal_series(series);
+}
+
+ComplexVector root_series(const Track& track, Complex root, Chart chart) {
+  ComplexVector series = root_series(track.functions, root);
+  return series.size() > 0 ? in_chart(std::move(series), track, chart) : series;
 }
 
 Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,

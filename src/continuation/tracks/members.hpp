@@ -23,6 +23,12 @@ Eigen::Index nearest_root(const ComplexVector& roots, Complex s);
 /// Index of the conjugate of an eigenvalue of a real block: its own, of a real one.
 Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member);
 
+/// A series that a track has in its chart, in another chart; empty where it is infinite there.
+ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart);
+
+/// Series of an eigenvalue of a track in a chart; empty where it is not simple, or infinite there.
+ComplexVector root_series(const Track& track, Complex root, Chart chart);
+
 /// Errors of the eigenvalues of a track by rounding of the entries of the pencil, in its chart, in the order
 /// of `roots`: those that its functions have at the point or near it.
 Vector rounding_of_roots(const Track& track, const ComplexVector& functions, const ComplexVector& roots,

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/block_parts.hpp"
-#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
@@ -51,12 +51,6 @@ double meeting_distance(const ComplexVector& a, const ComplexVector& b, double s
 
 namespace {
 
-/// A series in a chart; empty where it is infinite there.
-ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {
-  if (track.pair.chart == chart) return series;
-  return series[0] == 0.0 ? ComplexVector() : reciprocal_series(series);
-}
-
 /// An eigenvalue as a series, or the mean of several.
 struct Representative {
   ComplexVector series;
@@ -68,8 +62,7 @@ struct Representative {
 std::vector<Representative> representatives(const Track& track, Chart chart) {
   std::vector<Representative> all;
   for (const Complex root : track.roots) {
-    ComplexVector own = root_series(track.functions, root);
-    if (own.size() > 0) own = in_chart(std::move(own), track, chart);
+    ComplexVector own = root_series(track, root, chart);
     if (own.size() > 0) all.push_back({std::move(own)});
   }
   if (track.size() == 1) return all;
@@ -141,8 +134,7 @@ constexpr double same_singularity = 0.1;
 double last_term_of(const Track& track, Chart chart) {
   double largest = 0.0;
   for (const Complex root : track.roots) {
-    ComplexVector series = root_series(track.functions, root);
-    if (series.size() > 0) series = in_chart(std::move(series), track, chart);
+    const ComplexVector series = root_series(track, root, chart);
     if (series.size() == 0) return INFINITY;
     largest = std::max(largest, std::abs(series[series.size() - 1]));
   }

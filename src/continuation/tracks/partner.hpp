@@ -17,11 +17,6 @@ namespace eigentrail {
 /// eigenvalues takes k factorizations, and its dense output has k^2 functions.
 inline constexpr Eigen::Index largest_block = 16;
 
-/// Eigenvalues that are joined because they are close, and not because they are seen to meet, stay together
-/// up to this multiple of their distance. With a smaller one they are joined again soon; a larger one keeps
-/// blocks, which cost more than single modes.
-inline constexpr double kept_together = 3.0;
-
 /// A candidate for a block with a given track: another track, or the track's own conjugate.
 struct Partner {
   bool conjugate = false;  ///< the own conjugate; `track` is then the track itself

@@ -9,7 +9,7 @@
 #include "continuation/tracks/eigenvalue_branches.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
 #include "continuation/tracks/members.hpp"
-#include "eigentrail/continuation/point_modes.hpp"
+#include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
@@ -28,6 +28,10 @@ constexpr double bystander_error = 0.5;
 /// A part of a block can be separated if its distance from the others is more than this many times its
 /// diameter.
 constexpr double isolated = 3.0;
+/// Eigenvalues that are joined because they are close stay together up to this multiple of their distance.
+/// With a smaller one they are joined again soon; a larger one keeps blocks, which cost more than single
+/// modes.
+constexpr double kept_together = 3.0;
 /// The other chart is preferred if its last term is less than this share of that of the present chart,
 /// relative to the eigenvalue, ...
 constexpr double much_smaller_term = 0.2;
@@ -47,31 +51,12 @@ void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
   node.tracks.push_back(std::move(track));
 }
 
-/// Sets a track from a pair that is corrected at the node and differentiated, with its roots in the order of
-/// `known` and the mode numbers `modes`. False if that fails.
-bool settle(const PathProblem& problem, const PathNode& node, const InvariantPair& pair,
-            const ComplexVector& known, const std::vector<int>& modes, Track& track, RunCounts& counts) {
-  const PencilAtPoint pencil(node.pencil.of(pair.part), pair.chart);
-  InvariantPair corrected =
-      correct_pair(pencil, pair, problem.reference(pair.chart), problem.corrector, counts.modes);
-  if (corrected.status != PairStatus::converged) return false;
-  track = differentiate_track(problem, node, std::move(corrected), counts);
-  if (!track.functions.allFinite()) return false;
-  track.roots = in_order_of(known, track.roots);
-  track.modes = modes;
-  return true;
-}
-
 /// The largest distance below which members of these tracks are inseparable.
 double inseparable(const PathNode& node, const std::vector<std::size_t>& members) {
   double largest = 0.0;
   for (const std::size_t i : members) largest = std::max(largest, node.tracks[i].inseparable);
   return largest;
 }
-
-}  // namespace
-
-namespace {
 
 /// The smallest distance of the departures of these tracks (Track::departure); empty if none of them has one.
 std::optional<double> departure_distance(const PathNode& node, const std::vector<std::size_t>& members) {
@@ -191,21 +176,28 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
     return false;
   const ComplexVector values =
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
-  Track joined;
-  const auto settles = [&](const InvariantPair& start) {
-    return settle(problem, node, start, values, modes, joined, counts) && has_eigenvalues(joined, values);
+  const auto block = [&](const InvariantPair& start) {
+    std::optional<Track> track = track_of(problem, node, {start, values, modes}, counts);
+    return track && has_eigenvalues(*track, values) ? track : std::nullopt;
   };
-  if (!settles(join_pairs(parts, make_real)) &&
-      !settles(subspace_of(node, *parts.front(), values, make_real)))
-    return false;
-  if (hides_members(problem, node, members, joined)) return false;
-  joined.met = std::move(met);
-  joined.inseparable = inseparable(node, members);
+  std::optional<Track> joined = block(join_pairs(parts, make_real));
+  if (!joined) joined = block(subspace_of(node, *parts.front(), values, make_real));
+  if (!joined || hides_members(problem, node, members, *joined)) return false;
+  joined->met = std::move(met);
+  joined->inseparable = inseparable(node, members);
   if (departure) {
-    joined.departure =
+    joined->departure =
         Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
   }
-  replace(node, members, std::move(joined));
+  replace(node, members, std::move(*joined));
+  return true;
+}
+
+bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
+                   RunCounts& counts, Eigen::Index largest) {
+  if (!join(problem, node, track, {partner}, counts, largest)) return false;
+  double& inseparable = node.tracks.back().inseparable;
+  inseparable = std::max(inseparable, kept_together * partner.distance);
   return true;
 }
 
@@ -335,34 +327,35 @@ bool are_told_apart(const Track& block, const std::vector<std::vector<int>>& gro
   return gap > std::max(nearly_defective * N.norm(), rounding_of_eigenvalues(block, reference));
 }
 
+/// Some members of a block as a track; empty if that fails.
+std::optional<Track> track_of_members(const PathProblem& problem, const PathNode& node, const Track& block,
+                                      const std::vector<int>& members, RunCounts& counts) {
+  StartingGroup group{part_of(block.pair, block.roots, members), block.roots(members), {}};
+  for (const int i : members) group.modes.push_back(block.modes[static_cast<std::size_t>(i)]);
+  std::optional<Track> track = track_of(problem, node, group, counts);
+  if (!track) return std::nullopt;
+  track->inseparable = members.size() > 1 ? block.inseparable : 0.0;
+  if (block.departure)
+    track->departure = Track::Departure{block.departure->distance, block.departure->roots(members)};
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (std::find(block.met.begin(), block.met.end(), members[i]) != block.met.end())
+      track->met.push_back(static_cast<int>(i));
+  }
+  return track;
+}
+
 /// The tracks into which a block is separated; empty if one of them does not converge.
 std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, const Track& block,
                             const std::vector<std::vector<int>>& groups, RunCounts& counts) {
   std::vector<Track> parts;
   for (const std::vector<int>& members : groups) {
-    std::vector<int> modes;
-    ComplexVector known(static_cast<Eigen::Index>(members.size()));
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      known[static_cast<Eigen::Index>(i)] = block.roots[members[i]];
-      modes.push_back(block.modes[static_cast<std::size_t>(members[i])]);
-    }
     // Groups of conjugates and guard modes only are not followed.
-    if (std::all_of(modes.begin(), modes.end(), [](int mode) { return mode < 0; })) continue;
-    Track track;
-    if (!settle(problem, node, part_of(block.pair, block.roots, members), known, modes, track, counts))
-      return {};
-    track.inseparable = members.size() > 1 ? block.inseparable : 0.0;
-    if (block.departure) {
-      ComplexVector departing(known.size());
-      for (std::size_t i = 0; i < members.size(); ++i)
-        departing[static_cast<Eigen::Index>(i)] = block.departure->roots[members[i]];
-      track.departure = Track::Departure{block.departure->distance, std::move(departing)};
-    }
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      if (std::find(block.met.begin(), block.met.end(), members[i]) != block.met.end())
-        track.met.push_back(static_cast<int>(i));
-    }
-    parts.push_back(std::move(track));
+    if (std::all_of(members.begin(), members.end(),
+                    [&](int i) { return block.modes[static_cast<std::size_t>(i)] < 0; }))
+      continue;
+    std::optional<Track> track = track_of_members(problem, node, block, members, counts);
+    if (!track) return {};
+    parts.push_back(std::move(*track));
   }
   return parts;
 }
@@ -374,14 +367,10 @@ std::optional<Track> separate(const PathProblem& problem, const PathNode& node, 
   if (static_cast<Eigen::Index>(members.size()) == track.size()) return track;
   double inside = 0.0;
   double outside = INFINITY;
-  ComplexVector known(static_cast<Eigen::Index>(members.size()));
-  std::vector<int> modes;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const Complex root = known[static_cast<Eigen::Index>(i)] = track.roots[members[i]];
-    modes.push_back(track.modes[static_cast<std::size_t>(members[i])]);
+  for (const int i : members) {
     for (int j = 0; j < static_cast<int>(track.size()); ++j) {
       const bool member = std::find(members.begin(), members.end(), j) != members.end();
-      const double distance = std::abs(track.roots[j] - root);
+      const double distance = std::abs(track.roots[j] - track.roots[i]);
       if (member) {
         inside = std::max(inside, distance);
       } else {
@@ -389,11 +378,8 @@ std::optional<Track> separate(const PathProblem& problem, const PathNode& node, 
       }
     }
   }
-  Track result;
   if (!(outside > isolated * inside)) return std::nullopt;
-  if (!settle(problem, node, part_of(track.pair, track.roots, members), known, modes, result, counts))
-    return std::nullopt;
-  return result;
+  return track_of_members(problem, node, track, members, counts);
 }
 
 std::optional<Track> without(const PathProblem& problem, const PathNode& node, const Track& track,
@@ -403,9 +389,7 @@ std::optional<Track> without(const PathProblem& problem, const PathNode& node, c
     if (std::find(members.begin(), members.end(), i) == members.end()) others.push_back(i);
   }
   if (!are_told_apart(track, {members, others}, problem.reference(track.pair.chart))) return std::nullopt;
-  std::vector<Track> parts = parts_of(problem, node, track, {others}, counts);
-  if (parts.empty()) return std::nullopt;
-  return std::move(parts.front());
+  return track_of_members(problem, node, track, others, counts);
 }
 
 void part(const PathProblem& problem, const PathNode* left, PathNode& node, double h, double last_step,
@@ -455,12 +439,11 @@ bool prefers_other_chart(const Track& track, double h) {
 bool change_chart(const PathProblem& problem, PathNode& node, std::size_t index, RunCounts& counts) {
   Track& track = node.tracks[index];
   if (track.size() != 1 || track.roots[0] == 0.0) return false;
-  Track other;
-  if (!settle(problem, node, in_other_chart(track.pair), track.roots.cwiseInverse(), track.modes, other,
-              counts))
-    return false;
-  other.arriving = track.arriving;
-  track = std::move(other);
+  std::optional<Track> other =
+      track_of(problem, node, {in_other_chart(track.pair), track.roots.cwiseInverse(), track.modes}, counts);
+  if (!other) return false;
+  other->arriving = track.arriving;
+  track = std::move(*other);
   return true;
 }
 

@@ -13,6 +13,11 @@ namespace eigentrail {
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,
           RunCounts& counts, Eigen::Index largest = largest_block);
 
+/// Joins a track with another one because their eigenvalues are close, and not because they are seen to meet.
+/// They stay together as long as they are about as close.
+bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
+                   RunCounts& counts, Eigen::Index largest = largest_block);
+
 /// Some members of a block as a track of their own. Empty if they are too close to the other eigenvalues or
 /// the corrector fails.
 std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,

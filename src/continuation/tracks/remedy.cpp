@@ -1,6 +1,5 @@
 #include "continuation/tracks/remedy.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "continuation/step/step_error.hpp"
@@ -38,15 +37,6 @@ std::optional<Partner> nearest_to_join(const JoiningRules& rules, const PathNode
   const Eigen::Index size = node.tracks[track].size() + node.tracks[nearest->track].size();
   if (!rules.follows_all && size > most_of_few) return std::nullopt;
   return nearest;
-}
-
-/// Joins a track with another one, and keeps both together.
-bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
-                   RunCounts& counts, Eigen::Index largest = largest_block) {
-  if (!join(problem, node, track, {partner}, counts, largest)) return false;
-  double& inseparable = node.tracks.back().inseparable;
-  inseparable = std::max(inseparable, kept_together * partner.distance);
-  return true;
 }
 
 /// Joins a track that is not certified with the nearest other one. A block for which this was done before,

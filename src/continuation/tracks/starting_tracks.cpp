@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
+
+#include "core/connected_groups.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
+#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
@@ -21,25 +25,18 @@ double blur_at_zero(const ReducedPencil& pencil) {
   return mass > 0.0 ? blurred * std::sqrt(pencil.K[0].norm() / mass) : 0.0;
 }
 
-/// A label per mode, equal for modes that are connected by close eigenvalues. A mode is also close to another
-/// if it is close to the conjugate of that. `s_ref`: magnitude below which eigenvalues count as zero; `blur`:
-/// as from blur_at_zero.
-std::vector<int> group_labels(const std::vector<StartingMode>& modes, double s_ref, double blur) {
-  std::vector<int> label(modes.size());
-  std::iota(label.begin(), label.end(), 0);
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (modes[i].part != modes[j].part || modes[i].copy > 0 || modes[j].copy > 0) continue;
-      const Complex a = modes[i].s;
-      const Complex b = modes[j].s;
-      const double scale = std::max({std::abs(a), std::abs(b), s_ref});
-      const double distance = std::min(std::abs(a - b), std::abs(a - std::conj(b)));
-      const bool both_zero = std::max(std::abs(a), std::abs(b)) <= blur;
-      if (distance <= close * scale || both_zero)
-        std::replace(label.begin(), label.end(), label[i], label[j]);
-    }
-  }
-  return label;
+/// Indices of modes that are connected by close eigenvalues; those of copies are by themselves. A mode is
+/// also close to another if it is close to the conjugate of that. `s_ref`: magnitude below which eigenvalues
+/// count as zero; `blur`: as from blur_at_zero.
+Groups close_groups(const std::vector<StartingMode>& modes, double s_ref, double blur) {
+  return connected_groups(static_cast<Eigen::Index>(modes.size()), [&](Eigen::Index i, Eigen::Index j) {
+    const StartingMode& one = modes[static_cast<std::size_t>(i)];
+    const StartingMode& other = modes[static_cast<std::size_t>(j)];
+    if (one.part != other.part || one.copy > 0 || other.copy > 0) return false;
+    const double size = std::max(std::abs(one.s), std::abs(other.s));
+    const double distance = std::min(std::abs(one.s - other.s), std::abs(one.s - std::conj(other.s)));
+    return distance <= close * std::max(size, s_ref) || size <= blur;
+  });
 }
 
 /// Whether an eigenvalue is so close to its conjugate that both start in one block.
@@ -54,43 +51,52 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            double least_scale) {
   s_ref = std::max(s_ref, least_scale);
   const double blur = blur_at_zero(pencil);
-  const std::vector<int> labels = group_labels(modes, s_ref, blur);
   std::vector<StartingGroup> groups;
-  for (int label = 0; label < static_cast<int>(modes.size()); ++label) {
-    std::vector<std::size_t> members;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-      if (labels[i] == label && modes[i].copy == 0) members.push_back(i);
-    }
-    if (members.empty() || static_cast<int>(members.front()) >= n_modes) continue;
-    const bool is_real = std::any_of(members.begin(), members.end(),
-                                     [&](std::size_t i) { return near_real(modes[i].s, s_ref); });
+  for (const std::vector<Eigen::Index>& members : close_groups(modes, s_ref, blur)) {
+    const StartingMode& first = modes[static_cast<std::size_t>(members.front())];
+    if (first.copy > 0 || members.front() >= n_modes) continue;
+    const bool is_real = std::any_of(members.begin(), members.end(), [&](Eigen::Index i) {
+      return near_real(modes[static_cast<std::size_t>(i)].s, s_ref);
+    });
     std::vector<Complex> roots;
     StartingGroup group;
-    for (const std::size_t i : members) {
-      const bool followed = static_cast<int>(i) < n_modes;
-      roots.push_back(modes[i].s);
+    for (const Eigen::Index i : members) {
+      const Complex value = modes[static_cast<std::size_t>(i)].s;
+      const bool followed = i < n_modes;
+      roots.push_back(value);
       group.modes.push_back(followed ? static_cast<int>(i) : Track::guard);
-      if (!is_real || modes[i].s.imag() == 0.0) continue;
-      roots.push_back(std::conj(modes[i].s));
+      if (!is_real || value.imag() == 0.0) continue;
+      roots.push_back(std::conj(value));
       group.modes.push_back(followed ? Track::no_mode : Track::guard);
     }
     group.roots = Eigen::Map<ComplexVector>(roots.data(), static_cast<Eigen::Index>(roots.size()));
-    const int part = modes[members.front()].part;
-    const ReducedPencil& own = pencil.of(part);
+    const ReducedPencil& own = pencil.of(first.part);
     if (roots.size() == 1) {
       group.pair.is_real = roots[0].imag() == 0.0;
-      const StartingMode& mode = modes[members.front()];
-      group.pair.Z = mode.z.size() > 0 ? mode.z : eigenvector_near(own, mode.s, s_ref);
+      group.pair.Z = first.z.size() > 0 ? first.z : eigenvector_near(own, first.s, s_ref);
       group.pair.Lambda = group.roots;
       if (group.pair.is_real) group.pair.Z.imag().setZero();
     } else {
       const Complex centre = is_real ? Complex(group.roots.mean().real()) : group.roots.mean();
       group.pair = invariant_subspace(own, centre, group.roots.size(), is_real, least_scale);
     }
-    group.pair.part = part;
+    group.pair.part = first.part;
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+std::optional<Track> track_of(const PathProblem& problem, const PathNode& node, const StartingGroup& group,
+                              RunCounts& counts) {
+  const PencilAtPoint pencil(node.pencil.of(group.pair.part), group.pair.chart);
+  InvariantPair pair =
+      correct_pair(pencil, group.pair, problem.reference(group.pair.chart), problem.corrector, counts.modes);
+  if (pair.status != PairStatus::converged) return std::nullopt;
+  Track track = differentiate_track(problem, node, std::move(pair), counts);
+  if (!track.functions.allFinite()) return std::nullopt;
+  track.roots = in_order_of(group.roots, track.roots);
+  track.modes = group.modes;
+  return track;
 }
 
 }  // namespace eigentrail

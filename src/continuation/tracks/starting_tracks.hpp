@@ -1,15 +1,17 @@
 // Initial tracks from a spectrum: single modes, and blocks of eigenvalues that nearly coincide.
 #pragma once
 
+#include <optional>
+
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
 
-/// A single mode or a block of a spectrum, with mode numbers.
+/// A single mode or a block of a spectrum, or of other tracks, with mode numbers.
 struct StartingGroup {
   InvariantPair pair;      ///< not yet corrected
-  ComplexVector roots;     ///< eigenvalues from the spectrum
+  ComplexVector roots;     ///< eigenvalues as far as they are known
   std::vector<int> modes;  ///< mode number of every root, or Track::no_mode, Track::guard
 };
 
@@ -20,5 +22,10 @@ struct StartingGroup {
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
                                            double least_scale = 0.0);
+
+/// The track of a group at a point: corrected and differentiated, with its roots in the order of those of the
+/// group and its mode numbers. Empty if that fails.
+std::optional<Track> track_of(const PathProblem& problem, const PathNode& node, const StartingGroup& group,
+                              RunCounts& counts);
 
 }  // namespace eigentrail

@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "continuation/tracks/ended_modes.hpp"
+#include "continuation/tracks/members.hpp"
 #include "continuation/tracks/regrouping.hpp"
-#include "eigentrail/modes/block_parts.hpp"
-#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
@@ -15,15 +14,6 @@ namespace {
 /// The step that ends where an eigenvalue has come back is longer by this factor: its place of infinity is
 /// known from two terms of a series.
 constexpr double well_behind = 1.2;
-
-/// Series of the reciprocal of a root of a track; empty where it is not simple or zero.
-ComplexVector reciprocal_of(const Track& track, Complex root) {
-  if (root == 0.0) return {};
-  const ComplexVector own = track.size() == 1 ? ComplexVector(track.functions.row(0).transpose())
-                                              : root_series(track.functions, root);
-  if (own.size() < 3 || own[0] == 0.0) return {};
-  return track.pair.chart == Chart::reciprocal ? own : reciprocal_series(own);
-}
 
 /// Signed distance of the place where mu vanishes like a root; empty if it does not.
 std::optional<double> distance_of_infinity(const ComplexVector& mu, const InfinityThresholds& thresholds) {
@@ -52,7 +42,7 @@ std::vector<RunToInfinity> runs_to_infinity(const PathNode& node, double directi
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& track = node.tracks[i];
     for (int j = 0; j < static_cast<int>(track.size()); ++j) {
-      const ComplexVector mu = reciprocal_of(track, track.roots[j]);
+      const ComplexVector mu = root_series(track, track.roots[j], Chart::reciprocal);
       const auto distance = distance_of_infinity(mu, thresholds);
       if (distance && *distance * direction > 0.0)
         runs.push_back({i, j, std::abs(*distance), 1.0 / std::abs(mu[0])});
