@@ -16,27 +16,18 @@ struct Place {
   ComplexVector s;
 };
 
-bool exists(const PathStep& step, int mode) {
-  return std::any_of(step.blocks.begin(), step.blocks.end(), [mode](const DenseBlock& block) {
-    return std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end();
-  });
-}
-
 /// The step that says something on a mode at a place: the step behind it where the mode begins at its end.
 std::size_t step_of(const LociFile& loci, const Place& place, int mode) {
   const bool next =
-      place.t == 1.0 && place.step + 1 < loci.steps.size() && !exists(loci.steps[place.step], mode);
+      place.t == 1.0 && place.step + 1 < loci.steps.size() && loci.block_of(place.step, mode) == nullptr;
   return place.step + (next ? 1 : 0);
 }
 
 /// 1 or 0; NaN where the mode exists on no step at the place.
 Cell certified_at(const LociFile& loci, const Place& place, int mode) {
   if (loci.steps.empty()) return NAN;
-  for (const DenseBlock& block : loci.steps[step_of(loci, place, mode)].blocks) {
-    if (std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end())
-      return count(block.certified ? 1 : 0);
-  }
-  return NAN;
+  const DenseBlock* block = loci.block_of(step_of(loci, place, mode), mode);
+  return block == nullptr ? NAN : count(block->certified ? 1 : 0);
 }
 
 /// The stored points; a point belongs to the step that ends there.

@@ -38,22 +38,10 @@ void print_uncertified(const LociFile& loci) {
   constexpr std::size_t most_lines = 20;
   std::size_t lines = 0;
   for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
-    for (std::size_t i = 0; i < loci.steps.size(); ++i) {
-      const auto doubtful = [&](std::size_t step) {
-        if (step >= loci.steps.size()) return false;
-        for (const DenseBlock& block : loci.steps[step].blocks) {
-          const bool has =
-              std::find(block.modes.begin(), block.modes.end(), static_cast<int>(mode)) != block.modes.end();
-          if (has) return !block.certified;
-        }
-        return false;
-      };
-      if (!doubtful(i)) continue;
-      const std::size_t first = i;
-      while (doubtful(i + 1)) ++i;
+    for (const auto& [first, last] : loci.uncertified(mode)) {
       if (++lines > most_lines) continue;
       std::printf("  identity of %s not certified from %s to %s\n", loci.modes[mode].c_str(),
-                  rounded(loci.p[first], 8).c_str(), rounded(loci.p[i + 1], 8).c_str());
+                  rounded(loci.p[first], 8).c_str(), rounded(loci.p[last], 8).c_str());
     }
   }
   if (lines > most_lines) std::printf("  and %zu more such stretches\n", lines - most_lines);

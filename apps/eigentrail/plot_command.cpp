@@ -96,21 +96,14 @@ except ImportError as error:
 sys.exit(plot.main(sys.argv[2:]))
 )";
 
-/// Environment with the package's folder first on the search path of Python.
-std::vector<std::string> environment() {
-  std::vector<std::string> list;
+/// Sets the environment of the processes that this one starts: the package's folder is first on the search
+/// path of Python, and nothing is shown in windows.
+void prepare_environment() {
+  const char* given = std::getenv("PYTHONPATH");
   std::string path = package_folder();
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string text = *entry;
-    if (!text.starts_with("PYTHONPATH=")) {
-      list.push_back(text);
-    } else if (text.size() > 11) {
-      path += (path.empty() ? "" : ":") + text.substr(11);
-    }
-  }
-  if (!path.empty()) list.push_back("PYTHONPATH=" + path);
-  list.emplace_back("MPLBACKEND=agg");
-  return list;
+  if (given != nullptr && *given != '\0') path += (path.empty() ? "" : ":") + std::string(given);
+  if (!path.empty()) setenv("PYTHONPATH", path.c_str(), 1);
+  setenv("MPLBACKEND", "agg", 1);
 }
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -126,10 +119,8 @@ std::optional<int> run_python(const std::string& interpreter, bool last,
                               const std::vector<std::string>& arguments) {
   std::vector<std::string> words{interpreter, "-c", script, last ? "last" : "other"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> variables = environment();
   pid_t child = 0;
-  if (posix_spawnp(&child, interpreter.c_str(), nullptr, nullptr, pointers(words).data(),
-                   pointers(variables).data()) != 0)
+  if (posix_spawnp(&child, interpreter.c_str(), nullptr, nullptr, pointers(words).data(), environ) != 0)
     return std::nullopt;
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
@@ -165,6 +156,7 @@ int run_plot(PlotArguments& arguments) {
   output.name_like(arguments.files.front(), ".svg");
   check_picture_name(output.path);
   check_new_output(output.path, output.force, {"picture of eigentrail", is_picture});
+  prepare_environment();
   const std::vector<std::string> candidates = interpreters();
   for (const std::string& interpreter : candidates) {
     const std::optional<int> code =

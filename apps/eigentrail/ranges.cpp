@@ -33,24 +33,23 @@ std::vector<Permanence> permanence_of_modes(const LociFile& loci) {
 }
 
 void print_permanent(const std::vector<Permanence>& all, const std::vector<std::string>& names) {
-  const auto list = [&](Permanence wanted, bool with_names) {
+  const auto list = [&](Permanence wanted) {
     std::string text;
     for (std::size_t mode = 0; mode < all.size(); ++mode) {
       if (all[mode] != wanted) continue;
       text += (text.empty() ? "" : ", ") + std::to_string(mode + 1);
-      if (with_names && mode < names.size() && !names[mode].empty())
-        text += " (" + printable(names[mode]) + ")";
+      if (mode < names.size() && !names[mode].empty()) text += " (" + printable(names[mode]) + ")";
     }
     return text;
   };
-  const std::string zeros = list(Permanence::zero, true);
+  const std::string zeros = list(Permanence::zero);
   if (!zeros.empty()) {
     std::printf(
         "  zero throughout  modes %s: rigid-body motions, integrators or placeholders; stable ranges leave "
         "them out\n",
         zeros.c_str());
   }
-  const std::string constants = list(Permanence::constant, true);
+  const std::string constants = list(Permanence::constant);
   if (!constants.empty()) std::printf("  constant  modes %s\n", constants.c_str());
 }
 

@@ -18,14 +18,15 @@ std::string field(const Cell& cell, const std::string& unknown) {
 
 }  // namespace
 
+std::string csv_line(const std::vector<Cell>& cells, const std::string& unknown) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + field(cells[i], unknown);
+  return line + "\n";
+}
+
 std::string csv_text(const Records& records) {
-  std::string text;
-  for (const std::string& column : records.columns) text += (text.empty() ? "" : ",") + csv_cell(column);
-  text += "\n";
-  for (const std::vector<Cell>& row : records.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + field(row[i], records.unknown);
-    text += "\n";
-  }
+  std::string text = csv_line({records.columns.begin(), records.columns.end()}, records.unknown);
+  for (const std::vector<Cell>& row : records.rows) text += csv_line(row, records.unknown);
   return text;
 }
 
@@ -34,14 +35,9 @@ nlohmann::ordered_json json_of(const Records& records) {
   for (const std::vector<Cell>& row : records.rows) {
     nlohmann::ordered_json object;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      auto& value = object[records.columns[i]];  // null: not known, or infinite
-      if (const auto* number = std::get_if<double>(&row[i])) {
-        if (std::isfinite(*number)) value = *number;
-      } else if (const auto* whole = std::get_if<std::int64_t>(&row[i])) {
-        value = *whole;
-      } else {
-        value = std::get<std::string>(row[i]);
-      }
+      // Numbers that are not finite are null when they are written.
+      auto& value = object[records.columns[i]];
+      std::visit([&value](const auto& cell) { value = cell; }, row[i]);
     }
     rows.push_back(std::move(object));
   }

@@ -24,7 +24,11 @@ struct Records {
   std::string unknown = "nan";  ///< what stands in CSV for a number that is not known
 };
 
-/// Comma-separated values with a heading; texts with commas or quotes are quoted (RFC 4180).
+/// A line of comma-separated values with its end; texts with commas or quotes are quoted (RFC 4180).
+/// `unknown` stands for numbers that are not known.
+std::string csv_line(const std::vector<Cell>& cells, const std::string& unknown);
+
+/// Comma-separated values with a heading.
 std::string csv_text(const Records& records);
 
 /// A list of objects; numbers that are not known or infinite are null.

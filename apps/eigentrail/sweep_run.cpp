@@ -11,16 +11,13 @@
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/scene/settings.hpp"
 #include "eigentrail/store/saved_trace.hpp"
+#include "records.hpp"
 
 namespace eigentrail::app {
 namespace {
 
 /// Places of a step at which damping ratios are looked at, beside its ends.
 constexpr int places_per_step = 16;
-
-std::string csv_number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? exact_text(*value) : "";
-}
 
 std::optional<double> first_of(EventKind kind, const std::vector<Event>& events, double from) {
   std::optional<double> first;
@@ -94,21 +91,21 @@ std::optional<LeastDamping> least_damping(const RecordedPath& path) {
 }
 
 std::string index_header(const std::vector<Varied>& varied) {
-  std::string line = "run,file";
-  for (const Varied& one : varied) line += "," + csv_cell(one.name);
-  return line + ",exit,points,reached,flutter,divergence,least_damping,least_damping_at,reason\n";
+  std::vector<Cell> cells{"run", "file"};
+  for (const Varied& one : varied) cells.emplace_back(one.name);
+  for (const char* column :
+       {"exit", "points", "reached", "flutter", "divergence", "least_damping", "least_damping_at", "reason"})
+    cells.emplace_back(column);
+  return csv_line(cells, "");
 }
 
 std::string index_line(const SweepRow& row) {
-  std::string line = std::to_string(row.run) + "," + csv_cell(row.file);
-  for (const double value : row.values) line += "," + exact_text(value);
-  const auto part_of_damping = [&row](double LeastDamping::*part) {
-    return csv_number(row.damping ? std::optional((*row.damping).*part) : std::nullopt);
-  };
-  return line + "," + std::to_string(row.exit_code) + "," + std::to_string(row.points) + "," +
-         csv_number(row.reached) + "," + csv_number(row.flutter) + "," + csv_number(row.divergence) + "," +
-         part_of_damping(&LeastDamping::ratio) + "," + part_of_damping(&LeastDamping::p) + "," +
-         csv_cell(printable(row.reason)) + "\n";
+  std::vector<Cell> cells{count(row.run), row.file};
+  cells.insert(cells.end(), row.values.begin(), row.values.end());
+  const LeastDamping damping = row.damping.value_or(LeastDamping{NAN, NAN});
+  cells.insert(cells.end(), {count(row.exit_code), count(row.points), row.reached, row.flutter.value_or(NAN),
+                             row.divergence.value_or(NAN), damping.ratio, damping.p, printable(row.reason)});
+  return csv_line(cells, "");
 }
 
 void require_run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,

@@ -9,12 +9,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -23,6 +21,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "core/archive.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "launcher.hpp"
@@ -183,32 +182,6 @@ class ComputingThreads {
   std::vector<std::jthread> threads_;
 };
 
-/// A message about a finished piece: its number, its code, its bytes.
-std::string message_of(std::int64_t piece, const Outcome& outcome) {
-  std::array<std::int64_t, 2> head{piece, outcome.code};
-  return std::string(reinterpret_cast<const char*>(head.data()), sizeof head) + outcome.bytes;
-}
-
-/// Joins texts to one, and separates them.
-std::string joined_texts(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) {
-    const std::uint64_t size = text.size();
-    all.append(reinterpret_cast<const char*>(&size), sizeof size);
-    all += text;
-  }
-  return all;
-}
-void separate(const std::string& all, std::vector<std::string>& texts) {
-  std::size_t at = 0;
-  for (std::string& text : texts) {
-    std::uint64_t size = 0;
-    std::memcpy(&size, all.data() + at, sizeof size);
-    text = all.substr(at + sizeof size, size);
-    at += sizeof size + size;
-  }
-}
-
 /// This process among all.
 class Processes {
  public:
@@ -261,9 +234,9 @@ class MpiWorkers final : public Workers {
       assist(piece);
     }
     processes_.agree(outcome);
-    std::string all = processes_.leads() ? joined_texts(results) : std::string();
+    std::string all = processes_.leads() ? packed(results) : std::string();
     broadcast(all, leader);
-    if (!processes_.leads()) separate(all, results);
+    if (!processes_.leads()) unpack(all, results);
     return results;
   }
   std::size_t size() const override { return all_threads_; }
@@ -317,9 +290,10 @@ Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
         others -= answer == no_piece ? 1 : 0;
         send(&answer, sizeof answer, status.MPI_SOURCE, answer_tag);
       } else {
-        std::array<std::int64_t, 2> head{};
-        std::memcpy(head.data(), bytes.data(), sizeof head);
-        take(head[0], {head[1], bytes.substr(sizeof head)});
+        std::int64_t number = no_piece;
+        Outcome outcome;
+        unpack(bytes, number, outcome.code, outcome.bytes);
+        take(number, std::move(outcome));
       }
     }
     idle ? backoff.sleep() : backoff.restart();
@@ -336,7 +310,8 @@ void MpiWorkers::assist(const Piece& piece) const {
     // Results first: the answer "no piece" then tells the first process that it has all results of a thread.
     while (auto result = own.finished()) {
       idle = false;
-      const std::string message = message_of(result->first, result->second);
+      const auto& [number, outcome] = *result;
+      const std::string message = packed(number, outcome.code, outcome.bytes);
       send(message.data(), message.size(), leader, result_tag);
     }
     for (; requested < own.idle(); ++requested) {

@@ -6,17 +6,15 @@
 namespace eigentrail {
 namespace {
 
-/// The followed modes at one point, Z in physical coordinates.
-struct Modes {
-  std::vector<ComplexMatrix> Z;
-  std::vector<ComplexMatrix> Lambda;
-};
+/// The followed modes, Z in physical coordinates.
+using Modes = std::vector<InvariantPair>;
 
 Modes modes_of(const PathPoint& point) {
-  Modes modes;
-  for (std::size_t i = 0; i < point.pairs.size(); ++i) {
-    modes.Z.push_back(point.shapes(i));
-    modes.Lambda.push_back(point.pairs[i].Lambda);
+  Modes modes(point.pairs.size());
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    modes[i].is_real = point.pairs[i].is_real;
+    modes[i].Z = point.shapes(i);
+    modes[i].Lambda = point.pairs[i].Lambda;
   }
   return modes;
 }
@@ -24,9 +22,9 @@ Modes modes_of(const PathPoint& point) {
 /// a + factor (b - a) for vectors and eigenvalues: the line through a (factor 0) and b (factor 1).
 Modes along_line(const Modes& a, const Modes& b, double factor) {
   Modes result = a;
-  for (std::size_t i = 0; i < a.Z.size(); ++i) {
-    result.Z[i] += factor * (b.Z[i] - a.Z[i]);
-    result.Lambda[i] += factor * (b.Lambda[i] - a.Lambda[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    result[i].Z += factor * (b[i].Z - a[i].Z);
+    result[i].Lambda += factor * (b[i].Lambda - a[i].Lambda);
   }
   return result;
 }
@@ -39,21 +37,11 @@ bool follow_tangent(PathProblem problem, const PathPoint& point, double h, Modes
   if (!node) return false;
   for (std::size_t i = 0; i < node->tracks.size(); ++i) {
     const PairSeries& series = node->tracks[i].series;
-    modes.Z[i] = series.Z[0] + h * series.Z[1];
-    modes.Lambda[i] = series.Lambda[0] + h * series.Lambda[1];
+    modes[i].Z = series.Z[0] + h * series.Z[1];
+    modes[i].Lambda = series.Lambda[0] + h * series.Lambda[1];
   }
   guess = {evaluate_series(node->path.x, h), evaluate_series(node->path.lambda, h), true};
   return true;
-}
-
-std::vector<InvariantPair> as_pairs(const Modes& modes, const std::vector<InvariantPair>& last) {
-  std::vector<InvariantPair> pairs(last.size());
-  for (std::size_t i = 0; i < last.size(); ++i) {
-    pairs[i].is_real = last[i].is_real;
-    pairs[i].Z = modes.Z[i];
-    pairs[i].Lambda = modes.Lambda[i];
-  }
-  return pairs;
 }
 
 /// The first point, with modes from the full spectrum; empty if there is no equilibrium or spectrum.
@@ -101,8 +89,7 @@ GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p
         !follow_tangent(problem, *point, p[k + 1] - p[k], there, guess, loci.counts))
       return loci;
     before = here;
-    point = compute_point(problem, {p[k + 1], guess, as_pairs(there, point->pairs)}, point->basis.T[0],
-                          loci.counts);
+    point = compute_point(problem, {p[k + 1], guess, there}, point->basis.T[0], loci.counts);
   }
   loci.message.clear();
   loci.completed = true;

@@ -203,21 +203,17 @@ class IntervalWalk {
     if (event.modes.empty() || !std::isfinite(criterion(event, Complex(1.0, 1.0), 0.0).value)) return {};
     const auto positions = path_.positions(event.p);
     if (positions.empty()) return {};
-    const double place = static_cast<double>(positions.front().step) + positions.front().t;
+    const double place = positions.front().in_steps();
     double low = end_of(event, place, -1.0), high = end_of(event, place, 1.0);
     if (low > high) std::swap(low, high);
     return {std::min(low, event.p), std::max(high, event.p)};
   }
 
  private:
-  /// Places are counted in steps from the first point.
-  PathPosition position(double place) const {
-    const auto step = std::min(static_cast<std::size_t>(place), path_.steps.size() - 1);
-    return {step, place - static_cast<double>(step)};
-  }
+  // Places are counted in steps from the first point.
 
   bool may_vanish(const Event& event, double place) const {
-    const PathPosition at = position(place);
+    const PathPosition at = path_.position_at(place);
     const Eigen::Index mode = event.modes.front();
     const Complex s = path_.eigenvalues_at(at)[mode];
     if (!std::isfinite(s.real())) return false;
@@ -248,7 +244,7 @@ class IntervalWalk {
       const double middle = 0.5 * (inside + outside);
       (may_vanish(event, middle) ? inside : outside) = middle;
     }
-    return path_.parameter_at(position(outside));
+    return path_.parameter_at(path_.position_at(outside));
   }
 
   const TraceOptions& options_;

@@ -19,8 +19,7 @@ struct Turn {
 Turn turn_at(const RecordedPath& path, const DataErrors& errors, PathPosition at, Eigen::Index mode) {
   const Complex s = path.eigenvalues_at(at)[mode];
   const double size = std::abs(s);
-  return {static_cast<double>(at.step) + at.t, -s.real() / size,
-          errors.at(at.step, mode, path.parameter_at(at)) / size};
+  return {at.in_steps(), -s.real() / size, errors.at(at.step, mode, path.parameter_at(at)) / size};
 }
 
 /// The first and the last point of the path at which the mode exists.

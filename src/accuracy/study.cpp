@@ -11,19 +11,6 @@ namespace {
 
 constexpr Method grid_methods[] = {Method::qz, Method::zero_order, Method::secant, Method::tangent};
 
-/// Restores the options of a trace at the end of its lifetime.
-class OptionsGuard {
- public:
-  explicit OptionsGuard(TraceOptions& options) : options_(options), kept_(options) {}
-  ~OptionsGuard() { options_ = kept_; }
-  OptionsGuard(const OptionsGuard&) = delete;
-  OptionsGuard& operator=(const OptionsGuard&) = delete;
-
- private:
-  TraceOptions& options_;
-  TraceOptions kept_;
-};
-
 template <class Values, class Within>
 bool all(const Values& values, Within within) {
   return !values.empty() && std::all_of(values.begin(), values.end(), within);
@@ -77,7 +64,6 @@ Members<15> archived(const MeasuredRun*);
 
 Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
                      const std::function<void(int, int)>& progress) try {
-  const OptionsGuard guard(setup.options);
   const TraceOptions own = setup.options;
   const std::size_t all_runs = options.tolerances.size() * options.orders.size() + 2 +
                                2 * options.grids.size() * std::size(grid_methods);

@@ -67,13 +67,6 @@ std::vector<double> distances(const LociFile& loci) {
   return list;
 }
 
-const DenseBlock* block_of(const PathStep& step, int mode) {
-  for (const DenseBlock& block : step.blocks) {
-    if (std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end()) return &block;
-  }
-  return nullptr;
-}
-
 /// Whether rounding leaves the eigenvalues of a block distinct, or lets all of them be one.
 enum class Seen { apart, doubtful, as_one };
 Seen how_seen(const ComplexVector& functions) {
@@ -103,7 +96,7 @@ class ModeStretch {
       : loci_(loci), mode_(mode), first_(first), budget_(budget) {
     for (std::size_t i = first; i < loci.steps.size(); ++i) {
       const PathStep& step = loci.steps[i];
-      const DenseBlock* block = block_of(step, mode);
+      const DenseBlock* block = loci.block_of(i, mode);
       if (block == nullptr) break;
       alone_.emplace_back();
       hidden_.emplace_back();

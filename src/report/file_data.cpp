@@ -10,19 +10,13 @@
 #include "eigentrail/store/loci_file.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/map_writer.hpp"
+#include "store/provenance.hpp"
 
 namespace eigentrail {
 namespace {
 
 std::string text_of(const Hdf5File& file, const std::string& name) {
   return file.has_attribute(name) ? file.text_attribute(name) : "";
-}
-
-void check_schema(const Hdf5File& file, const std::string& path, int expected) {
-  const std::int64_t found = file.integer_attribute("schema_version");
-  if (found == expected) return;
-  throw InputError(path + ": has schema " + std::to_string(found) + ", this program reads schema " +
-                   std::to_string(expected));
 }
 
 Json data_of_kind(const Hdf5File& file, const std::string& path, const ReportBudget& budget) {

@@ -12,23 +12,6 @@
 namespace eigentrail {
 namespace {
 
-/// Ranges of steps on which a mode is not certified: pairs of the first and last point of the trace.
-Json uncertified(const LociFile& loci, int mode) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < loci.steps.size(); ++i) {
-    for (const DenseBlock& block : loci.steps[i].blocks) {
-      const bool has = std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end();
-      if (!has || block.certified) continue;
-      if (!list.empty() && list.back()[1] == i) {
-        list.back()[1] = i + 1;
-      } else {
-        list.push_back({i, i + 1});
-      }
-    }
-  }
-  return list;
-}
-
 /// Bounds of the errors of the data of a mode, 1/s, per step; not finite where they are not known.
 std::vector<double> errors_of(const DataErrors& errors, std::size_t mode) {
   std::vector<double> list;
@@ -43,7 +26,7 @@ Json modes_data(const LociFile& loci) {
     list.push_back({{"label", loci.modes[i]},
                     {"name", loci.mode_names[i]},
                     {"certified", loci.certified_share(i)},
-                    {"uncertified", uncertified(loci, static_cast<int>(i))}});
+                    {"uncertified", loci.uncertified(i)}});
     if (loci.data_errors) list.back()["errors"] = base64(errors_of(*loci.data_errors, i));
   }
   return list;
@@ -62,8 +45,7 @@ Json mode_numbers(const std::string& text, std::size_t n_modes) {
   return list;
 }
 
-Json events_data(const LociFile& loci, const Hdf5File& file) {
-  const std::vector<std::int64_t> nodes = file.read_integers("event_node");
+Json events_data(const LociFile& loci) {
   Json list = Json::array();
   for (std::size_t i = 0; i < loci.events.size(); ++i) {
     const LociEvent& event = loci.events[i];
@@ -79,7 +61,7 @@ Json events_data(const LociFile& loci, const Hdf5File& file) {
               {"imag", event.s.imag()},
               {"modes", mode_numbers(event.modes, loci.modes.size())},
               {"value", event.value},
-              {"node", i < nodes.size() ? nodes[i] : -1}};
+              {"node", event.node}};
     if (loci.data_errors && std::isfinite(loci.data_errors->intervals[i].from)) {
       const EventInterval& interval = loci.data_errors->intervals[i];
       item["interval"] = {interval.from, interval.to};
@@ -187,7 +169,7 @@ Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& b
   data["constraints"] = loci.constraints.size();
   data["curves"] = curves_data(loci, budget);
   data["modes"] = modes_data(loci);
-  data["events"] = events_data(loci, file);
+  data["events"] = events_data(loci);
   data["ranges"] = ranges_data(loci);
   data["excitation"] = excitation_data(loci);
   data["shapes"] = shapes_data(loci, file, budget);

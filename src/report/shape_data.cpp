@@ -78,16 +78,15 @@ std::size_t bytes_per_node(const LociFile& loci, std::size_t n) {
 
 /// The points of the trace at which the page shows shapes: all of them if there are at most `room`. Otherwise
 /// those of events (at most room / 2 of them) and others spread evenly from the first point to the last.
-std::vector<std::size_t> chosen_nodes(const LociFile& loci, const Hdf5File& file, std::size_t room) {
+std::vector<std::size_t> chosen_nodes(const LociFile& loci, std::size_t room) {
   const std::size_t n = loci.n_nodes();
   std::set<std::size_t> chosen;
   if (room >= n) {
     for (std::size_t i = 0; i < n; ++i) chosen.insert(i);
     return {chosen.begin(), chosen.end()};
   }
-  for (const std::int64_t node : file.read_integers("event_node")) {
-    if (node >= 0 && static_cast<std::size_t>(node) < n && chosen.size() < room / 2)
-      chosen.insert(static_cast<std::size_t>(node));
+  for (const LociEvent& event : loci.events) {
+    if (chosen.size() < room / 2) chosen.insert(static_cast<std::size_t>(event.node));
   }
   const std::size_t others = room - chosen.size();
   for (std::size_t i = 0; i < others; ++i) chosen.insert(others < 2 ? 0 : i * (n - 1) / (others - 1));
@@ -116,7 +115,7 @@ Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget&
   const std::size_t shown = shafts.empty() ? n : shafts.size();
   const std::size_t room = budget.shapes / std::max<std::size_t>(bytes_per_node(loci, shown), 1);
   if (room < 2 || n == 0) return nullptr;
-  const std::vector<std::size_t> nodes = chosen_nodes(loci, file, room);
+  const std::vector<std::size_t> nodes = chosen_nodes(loci, room);
   std::vector<std::int16_t> numbers;
   std::vector<float> equilibrium;
   for (const std::size_t node : nodes) {

@@ -204,27 +204,22 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   const auto grows = [&](const AxisSample& s) {
     return other.all_decay ? s.margin < 0.0 : !s.unstable.empty();
   };
-  const auto coordinate = [](const PathPosition& at) { return static_cast<double>(at.step) + at.t; };
-  const auto position = [&](double x) {
-    const auto step = std::min(static_cast<std::size_t>(x), path.steps.size() - 1);
-    return PathPosition{step, x - static_cast<double>(step)};
-  };
-  double inside = coordinate(growing.at);
-  double outside = coordinate(other.at);
+  double inside = growing.at.in_steps();
+  double outside = other.at.in_steps();
   AxisSample nearest = growing;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (inside + outside);
     if (middle == inside || middle == outside) break;
-    const AxisSample there = sample(path, position(middle), judging);
+    const AxisSample there = sample(path, path.position_at(middle), judging);
     (grows(there) ? inside : outside) = middle;
     if (grows(there)) nearest = there;
   }
   AxisCut cut;
-  cut.at = position(inside);
+  cut.at = path.position_at(inside);
   cut.p = path.parameter_at(cut.at);
   cut.modes = {nearest.critical};
   cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
-  cut.cause = is_at_infinity(path, cut, position(outside), judging) ? "infinity" : "sign change";
+  cut.cause = is_at_infinity(path, cut, path.position_at(outside), judging) ? "infinity" : "sign change";
   return cut;
 }
 

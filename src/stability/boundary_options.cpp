@@ -37,26 +37,6 @@ void check_numbers(const BoundaryOptions& options) {
                      exact_text(*options.damping_ratio));
 }
 
-/// Values of all declared parameters at points all over the window, its four corners first.
-std::vector<Vector> places_to_check(const Scene& scene, const BoundaryOptions& options) {
-  const int first = scene.parameters.index(options.trace.parameter).value();
-  const int second = scene.parameters.index(options.second).value();
-  std::vector<Vector> corners, inner;
-  for (int i = 0; i < checked_points; ++i) {
-    for (int j = 0; j < checked_points; ++j) {
-      const double u = static_cast<double>(i) / (checked_points - 1);
-      const double v = static_cast<double>(j) / (checked_points - 1);
-      Vector values = scene.parameters.declared_values();
-      values[first] = (1.0 - u) * options.trace.from + u * options.trace.to;
-      values[second] = (1.0 - v) * options.second_from + v * options.second_to;
-      const bool corner = i % (checked_points - 1) == 0 && j % (checked_points - 1) == 0;
-      (corner ? corners : inner).push_back(std::move(values));
-    }
-  }
-  corners.insert(corners.end(), inner.begin(), inner.end());
-  return corners;
-}
-
 }  // namespace
 
 BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
@@ -85,8 +65,10 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   const int second = setup.scene.parameters.index(options.second).value();
   used.erase(first);
   used.erase(second);
-  setup.model =
-      build_model(setup.scene, {places_to_check(setup.scene, options), used, options.trace.without});
+  const std::vector<Vector> points =
+      points_of_window(setup.scene.parameters, {first, options.trace.from, options.trace.to},
+                       {second, options.second_from, options.second_to}, checked_points);
+  setup.model = build_model(setup.scene, {points, used, options.trace.without});
   for (const int unused : setup.model->description().unused_parameters) {
     if (unused == first || unused == second) throw unused_error(setup.scene, unused);
   }

@@ -32,12 +32,6 @@ struct CurvePoint {
   double delta() const { return functions.rows() > 1 ? functions(1, 0).real() : 0.0; }
 };
 
-/// Why a point was not found.
-struct PointTrouble {
-  PointStatus status = PointStatus::computed;
-  std::string message;
-};
-
 /// The point with the series of the curve through a situation on it. The tangent has a nonnegative product
 /// with `along`; if `along` is zero, the region g > 0 lies to its left. Empty if grad g vanishes or a
 /// coefficient is not finite.

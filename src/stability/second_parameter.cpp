@@ -41,4 +41,28 @@ void require_first_range(const Scene& scene, const OptionTexts& overrides) {
   }
 }
 
+std::vector<double> evenly(double from, double to, int n) {
+  std::vector<double> values(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double share = static_cast<double>(i) / (n - 1);
+    values[static_cast<std::size_t>(i)] = (1.0 - share) * from + share * to;
+  }
+  return values;
+}
+
+std::vector<Vector> points_of_window(const Parameters& parameters, const WindowSide& first,
+                                     const WindowSide& second, int per_side) {
+  std::vector<Vector> points;
+  for (const int n : {2, per_side}) {
+    for (const double q : evenly(second.from, second.to, n)) {
+      for (const double p : evenly(first.from, first.to, n)) {
+        Vector& values = points.emplace_back(parameters.declared_values());
+        values[first.parameter] = p;
+        values[second.parameter] = q;
+      }
+    }
+  }
+  return points;
+}
+
 }  // namespace eigentrail

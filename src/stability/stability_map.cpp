@@ -12,15 +12,8 @@
 namespace eigentrail {
 namespace {
 
-/// n >= 2 equidistant values from `from` to `to`, both ends exact.
-std::vector<double> evenly(double from, double to, int n) {
-  std::vector<double> values(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
-    const double share = static_cast<double>(i) / (n - 1);
-    values[static_cast<std::size_t>(i)] = (1.0 - share) * from + share * to;
-  }
-  return values;
-}
+/// Number of values of each parameter at which the model is checked.
+constexpr int checked_per_side = 17;
 
 void check_options(const MapOptions& options, const TraceOptions& trace, const Scene& scene) {
   const auto require = [](bool holds, const std::string& message) {
@@ -38,26 +31,6 @@ void check_options(const MapOptions& options, const TraceOptions& trace, const S
   require(
       options.jobs >= 0 && options.jobs <= most_map_jobs,
       "--jobs: expected 0 to " + std::to_string(most_map_jobs) + ", found " + std::to_string(options.jobs));
-}
-
-/// Parameter values all over the window at which the model is checked. The two ends of the first line come
-/// first.
-std::vector<Vector> checked_points(const Parameters& parameters, int first, const TraceOptions& trace,
-                                   const MapOptions& options) {
-  constexpr int per_side = 17;
-  const int second = parameters.index(options.second).value();
-  Vector declared = parameters.declared_values();
-  std::vector<Vector> points;
-  for (const double q : evenly(options.from, options.to, per_side)) {
-    declared[second] = q;
-    std::vector<double> line = evenly(trace.from, trace.to, per_side);
-    std::swap(line[1], line.back());
-    for (const double p : line) {
-      declared[first] = p;
-      points.push_back(declared);
-    }
-  }
-  return points;
 }
 
 std::vector<double> first_values(const MapSetup& setup) {
@@ -126,29 +99,39 @@ std::vector<std::string> notes_on(const StabilityMap& map, const std::string& se
   return notes;
 }
 
-MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
+namespace {
+
+/// The checked options, without the model. Adds the parameters that the options use to `used`.
+MapSetup checked_setup(Scene scene, const OptionTexts& overrides, const MapOptions& options,
+                       std::set<int>& used) {
   MapSetup setup{{std::move(scene), {}, nullptr}, options};
-  std::set<int> used;
   setup.trace.options = read_trace_options(setup.trace.scene, overrides, used);
   check_options(options, setup.trace.options, setup.trace.scene);
   return setup;
 }
 
+}  // namespace
+
+MapSetup read_map_setup(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
+  std::set<int> used;
+  return checked_setup(std::move(scene), overrides, options, used);
+}
+
 MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions& options) {
   check_top_level(scene);
   require_first_range(scene, overrides);
-  MapSetup setup{{std::move(scene), {}, nullptr}, options};
-  TraceSetup& trace = setup.trace;
   std::set<int> used;
-  trace.options = read_trace_options(trace.scene, overrides, used);
-  const Parameters& parameters = trace.scene.parameters;
-  check_options(options, trace.options, trace.scene);
+  MapSetup setup = checked_setup(std::move(scene), overrides, options, used);
+  TraceSetup& trace = setup.trace;
+  const int second = trace.scene.parameters.index(options.second).value();
   // build_model reports parameters on which the model does not depend, except those in `used`. Both
   // parameters of the window must enter the model.
   used.erase(trace.traced());
-  used.erase(parameters.index(options.second).value());
-  trace.model = build_model(trace.scene, {checked_points(parameters, trace.traced(), trace.options, options),
-                                          used, trace.options.without});
+  used.erase(second);
+  const std::vector<Vector> points =
+      points_of_window(trace.scene.parameters, {trace.traced(), trace.options.from, trace.options.to},
+                       {second, options.from, options.to}, checked_per_side);
+  trace.model = build_model(trace.scene, {points, used, trace.options.without});
   project_if_large(trace.model, trace.options,
                    lines_over(trace.options, options.second, options.from, options.to));
   return setup;

@@ -30,15 +30,10 @@ class Sampler {
   Sampler(const RecordedPath& path, const DataErrors& errors, const EigenvalueAccuracy& accuracy)
       : path_(path), errors_(errors), accuracy_(accuracy), permanence_(permanence_of_modes(path, accuracy)) {}
 
-  PathPosition position(double place) const {
-    const auto step = std::min(static_cast<std::size_t>(place), path_.steps.size() - 1);
-    return {step, place - static_cast<double>(step)};
-  }
-
-  double parameter(double place) const { return path_.parameter_at(position(place)); }
+  double parameter(double place) const { return path_.parameter_at(path_.position_at(place)); }
 
   RangeSample at(double place) const {
-    const PathPosition here = position(place);
+    const PathPosition here = path_.position_at(place);
     const ComplexVector s = path_.eigenvalues_at(here);
     double lowest = -INFINITY, highest = -INFINITY, fastest = -INFINITY;
     RangeSample sample{place};
@@ -89,8 +84,7 @@ std::vector<RangeSample> all_samples(const Sampler& sampler, const RecordedPath&
   places.push_back(static_cast<double>(path.steps.size()));
   for (const Event& event : events) {
     if (event.kind != EventKind::flutter && event.kind != EventKind::divergence) continue;
-    for (const PathPosition& at : path.positions(event.p))
-      places.push_back(static_cast<double>(at.step) + at.t);
+    for (const PathPosition& at : path.positions(event.p)) places.push_back(at.in_steps());
   }
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());

@@ -15,6 +15,7 @@
 #include "store/loci_checks.hpp"
 #include "store/loci_schema.hpp"
 #include "store/path_datasets.hpp"
+#include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
 
 namespace eigentrail {
@@ -26,11 +27,7 @@ void check_format(const Hdf5File& file, const std::string& path) {
     throw InputError(path + ": holds '" + format + "', not loci; open it in h5py or xarray");
   }
   if (format != loci_format) throw InputError(path + ": is an HDF5 file, but no loci file of eigentrail");
-  const std::int64_t schema = file.integer_attribute("schema_version");
-  if (schema != loci_schema_version) {
-    throw InputError(path + ": has schema " + std::to_string(schema) + ", this program reads schema " +
-                     std::to_string(loci_schema_version));
-  }
+  check_schema(file, path, loci_schema_version);
 }
 
 using RowMajorReal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -148,16 +145,25 @@ std::vector<ComplexVector> LociFile::eigenvalues_at(double value) const {
 double LociFile::certified_share(std::size_t mode) const {
   double covered = 0.0;
   double certified = 0.0;
-  for (const PathStep& step : steps) {
-    for (const DenseBlock& block : step.blocks) {
-      if (std::find(block.modes.begin(), block.modes.end(), static_cast<int>(mode)) == block.modes.end())
-        continue;
-      const double length = std::abs(step.length);
-      covered += length;
-      if (block.certified) certified += length;
-    }
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    const DenseBlock* block = block_of(step, static_cast<int>(mode));
+    if (block == nullptr) continue;
+    const double length = std::abs(steps[step].length);
+    covered += length;
+    if (block->certified) certified += length;
   }
   return covered > 0.0 ? certified / covered : NAN;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> LociFile::uncertified(std::size_t mode) const {
+  std::vector<std::pair<std::size_t, std::size_t>> stretches;
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    const DenseBlock* block = block_of(step, static_cast<int>(mode));
+    if (block == nullptr || block->certified) continue;
+    if (stretches.empty() || stretches.back().second != step) stretches.emplace_back(step, step);
+    stretches.back().second = step + 1;
+  }
+  return stretches;
 }
 
 void require_result_file(const std::string& path) {

@@ -22,6 +22,13 @@ void write_provenance(Hdf5Writer& file, const std::string& format, int schema_ve
   file.set_attribute("separation_margin", margin_text(options.events.operating));
 }
 
+void check_schema(const Hdf5File& file, const std::string& path, int expected) {
+  const std::int64_t found = file.integer_attribute("schema_version");
+  if (found == expected) return;
+  throw InputError(path + ": has schema " + std::to_string(found) + ", this program reads schema " +
+                   std::to_string(expected));
+}
+
 void write_notes(Hdf5Writer& file, const std::vector<std::string>& notes) {
   std::string joined;
   for (const std::string& note : notes) joined += (joined.empty() ? "" : "; ") + note;

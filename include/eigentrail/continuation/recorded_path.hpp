@@ -13,6 +13,9 @@ struct PathPosition {
   std::size_t step = 0;
   double t = 0.0;
   auto operator<=>(const PathPosition&) const = default;
+
+  /// The place counted in steps from the first node.
+  double in_steps() const { return static_cast<double>(step) + t; }
 };
 
 /// The points and steps of a trace.
@@ -35,6 +38,12 @@ struct RecordedPath {
 
   /// All places with that parameter value, in the order of the trace; several if the path has folds.
   std::vector<Position> positions(double parameter_value) const;
+
+  /// The place that is so many steps from the first node.
+  Position position_at(double in_steps) const;
+
+  /// The block of a mode on a step; null where the mode does not exist.
+  const DenseBlock* block_of(std::size_t step, int mode) const;
 
   /// Value of the traced parameter at a place.
   double parameter_at(const Position& position) const;

@@ -76,6 +76,9 @@ struct LociFile : RecordedPath {
   /// Fraction of the path length on which the mode exists and is certified, of that on which it exists; NaN
   /// if it exists on no step.
   double certified_share(std::size_t mode) const;
+
+  /// The stretches of the path on which a mode exists and is not certified: first and last point of each.
+  std::vector<std::pair<std::size_t, std::size_t>> uncertified(std::size_t mode) const;
 };
 
 /// Throws InputError unless `path` is a regular file that may be a result: no scene.

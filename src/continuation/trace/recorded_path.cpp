@@ -32,6 +32,18 @@ std::vector<PathPosition> RecordedPath::positions(double value) const {
   return found;
 }
 
+PathPosition RecordedPath::position_at(double in_steps) const {
+  const auto step = std::min(static_cast<std::size_t>(in_steps), steps.size() - 1);
+  return {step, in_steps - static_cast<double>(step)};
+}
+
+const DenseBlock* RecordedPath::block_of(std::size_t step, int mode) const {
+  for (const DenseBlock& block : steps[step].blocks) {
+    if (std::find(block.modes.begin(), block.modes.end(), mode) != block.modes.end()) return &block;
+  }
+  return nullptr;
+}
+
 double RecordedPath::parameter_at(const Position& position) const {
   if (position.t == 0.0) return p[position.step];
   if (position.t == 1.0) return p[position.step + 1];
