@@ -6,12 +6,11 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "continuation/tracks/starting_tracks.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
-#include "eigentrail/continuation/point_modes.hpp"
-#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/regroup.hpp"
 

@@ -10,7 +10,6 @@
 #include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"
-#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "modes/energy_stability.hpp"
 
