@@ -5,7 +5,6 @@
 
 #include "core/blas.hpp"
 #include "eigentrail/core/text.hpp"
-#include "model/draft.hpp"
 #include "model/matrix_family.hpp"
 #include "model/read_multibody.hpp"
 #include "model/read_trim.hpp"

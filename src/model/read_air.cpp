@@ -5,7 +5,6 @@
 #include <functional>
 #include <numbers>
 
-#include "eigentrail/core/text.hpp"
 #include "model/coefficient_table.hpp"
 #include "model/span_line.hpp"
 #include "model/station_columns.hpp"

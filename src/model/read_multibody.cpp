@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eigentrail/core/text.hpp"
 #include "model/draft.hpp"
 #include "model/multiblade/read_bladed_rotor.hpp"
 #include "model/multiblade/rotor_parts.hpp"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "eigentrail/core/text.hpp"
 #include "model/gauss_points.hpp"
 #include "model/whole_number.hpp"
 
