@@ -76,7 +76,6 @@ std::unique_ptr<UnfinishedRun> saved_pieces(const SharedJob& job, OutputChoice& 
   job.check_more_files();
   check_new_output(output.path, output.force,
                    output.part ? hdf5_format(part_format, "part of a run") : job.format);
-  if (job.leaves_more_files) unfinished->begin();
   return unfinished;
 }
 
@@ -85,7 +84,9 @@ std::unique_ptr<UnfinishedRun> saved_pieces(const SharedJob& job, OutputChoice& 
 int carry_out(const SharedJob& job, OutputChoice& output, Team& team) {
   if (job.writes && has_ended(job, output, team)) return done;
   const auto unfinished = saved_pieces(job, output, team);
+  // All processes of the team meet here: none looks any more for what an earlier run has left.
   std::unique_ptr<Workers> workers = team.workers(job.jobs);
+  if (unfinished && job.leaves_more_files && team.leads()) unfinished->begin();
   if (unfinished) workers = std::make_unique<SavingWorkers>(std::move(workers), *unfinished);
   const std::vector<std::size_t> numbers = output.part.value_or(Part{}).pieces(job.run.n_pieces);
   ProgressBar progress(output.quiet);
