@@ -39,6 +39,22 @@ ComplexLu::ComplexLu(ComplexMatrix A)
   LAPACKE_zgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
 }
 
+template <class Columns>
+void ComplexLu::substitute(char triangle, char form, Columns& B) const {
+  const auto n = static_cast<int>(factors_.rows());
+  const auto columns = static_cast<int>(B.cols());
+  // L has a unit diagonal that is not stored, U stores its own
+  const char diagonal = triangle == 'L' ? 'U' : 'N';
+  if (columns == 1) {
+    const int next = 1;
+    ztrsv_(&triangle, &form, &diagonal, &n, factors_.data(), &n, B.data(), &next);
+  } else {
+    const char side = 'L';
+    const Complex one(1.0);
+    ztrsm_(&side, &triangle, &form, &diagonal, &n, &columns, &one, factors_.data(), &n, B.data(), &n);
+  }
+}
+
 void ComplexLu::solve_in_place(ComplexVector& b) const {
   exchange_rows(pivots_, b);
   substitute('L', 'N', b);
@@ -61,28 +77,6 @@ void ComplexLu::solve_adjoint_in_place(ComplexMatrix& B) const {
   substitute('U', 'C', B);
   substitute('L', 'C', B);
   restore_rows(pivots_, B);
-}
-
-void ComplexLu::substitute(char triangle, char form, ComplexVector& b) const {
-  substitute(triangle, form, b.data());
-}
-
-void ComplexLu::substitute(char triangle, char form, ComplexMatrix& B) const {
-  if (B.cols() == 1) return substitute(triangle, form, B.data());
-  const auto n = static_cast<int>(factors_.rows());
-  const auto columns = static_cast<int>(B.cols());
-  const char side = 'L';
-  const char diagonal = triangle == 'L' ? 'U' : 'N';
-  const Complex one(1.0);
-  ztrsm_(&side, &triangle, &form, &diagonal, &n, &columns, &one, factors_.data(), &n, B.data(), &n);
-}
-
-void ComplexLu::substitute(char triangle, char form, Complex* b) const {
-  const auto n = static_cast<int>(factors_.rows());
-  const int next = 1;
-  // L has a unit diagonal that is not stored, U stores its own
-  const char diagonal = triangle == 'L' ? 'U' : 'N';
-  ztrsv_(&triangle, &form, &diagonal, &n, factors_.data(), &n, b, &next);
 }
 
 }  // namespace eigentrail

@@ -1,10 +1,7 @@
 #include "core/precompiled.hpp"
 
-template class Eigen::RealSchur<Eigen::MatrixXd>;
 template class Eigen::EigenSolver<Eigen::MatrixXd>;
 template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-template Eigen::RealSchur<Eigen::MatrixXd>& Eigen::RealSchur<Eigen::MatrixXd>::compute(
-    const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
 template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
 template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&

@@ -27,7 +27,6 @@ extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>;
-extern template class Eigen::RealSchur<Eigen::MatrixXd>;
 extern template class Eigen::ComplexSchur<Eigen::MatrixXcd>;
 extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
@@ -35,8 +34,6 @@ extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>;
 
 // Member functions that are templates themselves
-extern template Eigen::RealSchur<Eigen::MatrixXd>& Eigen::RealSchur<Eigen::MatrixXd>::compute(
-    const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
 extern template Eigen::ComplexSchur<Eigen::MatrixXcd>& Eigen::ComplexSchur<Eigen::MatrixXcd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXcd>&, bool);
 extern template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(

@@ -14,19 +14,10 @@ extern template struct general_matrix_vector_product<
     Index, double, const_blas_data_mapper<double, Index, ColMajor>, ColMajor, false, double,
     const_blas_data_mapper<double, Index, ColMajor>, false, 0>;
 extern template struct general_matrix_vector_product<
-    Index, double, const_blas_data_mapper<double, Index, ColMajor>, ColMajor, false, double,
-    const_blas_data_mapper<double, Index, RowMajor>, false, 0>;
-extern template struct general_matrix_vector_product<
     Index, double, const_blas_data_mapper<double, Index, RowMajor>, RowMajor, false, double,
     const_blas_data_mapper<double, Index, ColMajor>, false, 0>;
 extern template struct general_matrix_vector_product<
     Index, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, ColMajor>, ColMajor,
-    false, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, ColMajor>, false, 0>;
-extern template struct general_matrix_vector_product<
-    Index, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, ColMajor>, ColMajor,
-    false, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, RowMajor>, false, 0>;
-extern template struct general_matrix_vector_product<
-    Index, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, RowMajor>, RowMajor,
     false, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, ColMajor>, false, 0>;
 extern template struct general_matrix_vector_product<
     Index, std::complex<double>, const_blas_data_mapper<std::complex<double>, Index, RowMajor>, RowMajor,
@@ -42,10 +33,6 @@ extern template struct gebp_kernel<std::complex<double>, std::complex<double>, I
                                    blas_data_mapper<std::complex<double>, Index, ColMajor>,
                                    gebp_traits<std::complex<double>, std::complex<double>>::mr,
                                    gebp_traits<std::complex<double>, std::complex<double>>::nr, true, false>;
-extern template struct gebp_kernel<std::complex<double>, std::complex<double>, Index,
-                                   blas_data_mapper<std::complex<double>, Index, ColMajor>,
-                                   gebp_traits<std::complex<double>, std::complex<double>>::mr,
-                                   gebp_traits<std::complex<double>, std::complex<double>>::nr, false, true>;
 extern template struct triangular_solve_matrix<double, Index, OnTheLeft, UnitLower, false, ColMajor, ColMajor,
                                                1>;
 extern template struct triangular_solve_matrix<double, Index, OnTheLeft, Upper, false, ColMajor, ColMajor, 1>;

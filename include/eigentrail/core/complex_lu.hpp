@@ -28,11 +28,10 @@ class ComplexLu {
   void solve_adjoint_in_place(ComplexMatrix& B) const;
 
  private:
-  /// Overwrites b with L^-1 b or U^-1 b (form 'N'), or with L^-H b or U^-H b (form 'C'); triangle is 'L' or
+  /// Overwrites B with L^-1 B or U^-1 B (form 'N'), or with L^-H B or U^-H B (form 'C'); triangle is 'L' or
   /// 'U'.
-  void substitute(char triangle, char form, ComplexVector& b) const;
-  void substitute(char triangle, char form, ComplexMatrix& B) const;
-  void substitute(char triangle, char form, Complex* b) const;
+  template <class Columns>
+  void substitute(char triangle, char form, Columns& B) const;
 
   ComplexMatrix factors_;
   std::vector<int> pivots_;
