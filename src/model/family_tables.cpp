@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
 
 namespace eigentrail {
@@ -25,6 +26,15 @@ std::string unknown_member(const Hdf5File& file, const std::vector<std::string>&
       return "unknown '" + name + "' in it; " + suggestion(name, known);
   }
   return "";
+}
+
+std::string fault_of_names(const std::vector<std::string>& names, Eigen::Index n) {
+  if (!names.empty() && static_cast<Eigen::Index>(names.size()) != n)
+    return "has " + std::to_string(names.size()) + " names for " + std::to_string(n) + " states";
+  const auto same = first_repetition(names);
+  return same ? "has '" + names[same->first] + "' twice, for states " + std::to_string(same->first + 1) +
+                    " and " + std::to_string(same->second + 1) + "; give every state a name of its own"
+              : "";
 }
 
 std::optional<int> power_in(const std::string& name) {

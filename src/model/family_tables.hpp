@@ -22,6 +22,10 @@ int traced_index(const Scene& scene, const std::string& name, const std::string&
 /// matrix that is zero. Empty if all are known.
 std::string unknown_member(const Hdf5File& file, const std::vector<std::string>& known);
 
+/// Why names of n states are refused: too many or too few of them, or one that is there twice. Empty for good
+/// names, and for none.
+std::string fault_of_names(const std::vector<std::string>& names, Eigen::Index n);
+
 /// The number that a text is as a whole: a power of the parameter.
 std::optional<int> power_in(const std::string& name);
 

@@ -283,13 +283,8 @@ std::unique_ptr<Model> read_matrix_family(const Scene& scene, const ModelRequest
   if (n == 0 || n > max_size) {
     reader.fail(first, "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
   }
-  if (!p.state_names.empty() && static_cast<Eigen::Index>(p.state_names.size()) != n)
-    reader.fail("state_names", "has " + std::to_string(p.state_names.size()) + " names for " +
-                                   std::to_string(n) + " states");
-  if (const auto same = first_repetition(p.state_names))
-    reader.fail("state_names", "has '" + p.state_names[same->first] + "' twice, for states " +
-                                   std::to_string(same->first + 1) + " and " +
-                                   std::to_string(same->second + 1) + "; give every state a name of its own");
+  const std::string fault = fault_of_names(p.state_names, n);
+  if (!fault.empty()) reader.fail("state_names", fault);
   const int variable = variable_index(scene);
   const char* damping = p.first_order ? "E" : "C";
   const char* stiffness = p.first_order ? "A" : "K";

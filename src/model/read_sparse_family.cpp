@@ -224,9 +224,8 @@ std::unique_ptr<Model> read_sparse_family(const Scene& scene, TableReader& table
   std::vector<std::string> names;
   if (file.has("/state_names")) names = file.read_texts("/state_names");
   if (table.has("state_names")) names = table.texts("state_names");
-  if (!names.empty() && static_cast<Eigen::Index>(names.size()) != reader.size())
-    table.fail("state_names", "has " + std::to_string(names.size()) + " names for " +
-                                  std::to_string(reader.size()) + " coordinates");
+  const std::string fault = fault_of_names(names, reader.size());
+  if (!fault.empty()) table.fail("state_names", fault);
   table.finish();
   ModelDescription description = describe_states(reader.size(), names);
   description.parameters = scene.parameters;

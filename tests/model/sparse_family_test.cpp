@@ -132,9 +132,11 @@ TEST_F(SparseFamilyFile, AMatrixWithoutDataIsRefused) {
 TEST_F(SparseFamilyFile, StatesMayHaveNames) {
   const Setting named = setting("factors = { spring = \"k\" }\nstate_names = [\"flap\", \"lag\"]");
   EXPECT_EQ(named.model->description().coordinate_names, (std::vector<std::string>{"flap", "lag"}));
-  const std::string message =
-      input_error([&] { (void)setting("factors = { spring = \"k\" }\nstate_names = [\"flap\"]"); });
-  EXPECT_TRUE(contains(message, "has 1 names for 2 coordinates")) << message;
+  const auto message = [&](const std::string& names) {
+    return input_error([&] { (void)setting("factors = { spring = \"k\" }\nstate_names = " + names); });
+  };
+  EXPECT_TRUE(contains(message(R"(["flap"])"), "has 1 names for 2 states"));
+  EXPECT_TRUE(contains(message(R"(["flap", "flap"])"), "has 'flap' twice, for states 1 and 2"));
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ class Imports(ProgramTest):
         for call, text in ((lambda: et.from_openfast("nowhere/*.lin"), "no file has such a name"),
                            (lambda: et.from_files("fast", "a.lin"), "is not read; known: .*openfast"),
                            (lambda: et.from_files("numpy", "a.npz", digts=4), "is no option of numpy"),
-                           (lambda: et.from_files("numpy", "missing.npz"), "missing.npz")):
+                           (lambda: et.from_files("numpy", "missing.npz"), "missing.npz"),
+                           (lambda: et.from_files("elastodyn", DATA / "NRELOffshrBsline5MW_Blade.dat"), "eigentrail import elastodyn")):
             with self.subTest(text), self.assertRaisesRegex(et.SceneError, text):
                 call()
 

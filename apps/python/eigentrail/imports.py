@@ -68,7 +68,11 @@ def from_files(format: str, files: Files, **options: Any) -> Imported:
     with tempfile.TemporaryDirectory(prefix="eigentrail-") as folder:
         found = engine().import_files(format, paths, texts, folder)
         text = pathlib.Path(folder, "model.toml").read_text(encoding="utf-8")
-        image = pathlib.Path(folder, "model.h5").read_bytes()
+        matrices = pathlib.Path(folder, "model.h5")
+        if not matrices.exists():
+            raise SceneError(f"{format}: gives a scene with a table of stations, no matrices; use the program, "
+                             f"eigentrail import {format} FILES -o FOLDER, and give the scene to et.trace")
+        image = matrices.read_bytes()
     for warning in found["warnings"]:
         warnings.warn(warning, stacklevel=3)
     return Imported(found, text, image)
