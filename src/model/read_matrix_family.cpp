@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "core/hdf5_file.hpp"
-#include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "model/beside_scene.hpp"
 #include "model/draft.hpp"
