@@ -52,6 +52,15 @@ Handle memory_access() {
   return access;
 }
 
+/// Properties of a new file: nodes of the index of a dataset's chunks have eight entries at most, not 64.
+/// Each dataset has one of them at least, which would take more space than the values of a short trace.
+Handle small_indices() {
+  constexpr unsigned half_of_entries = 4;
+  Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make properties of a file");
+  check(H5Pset_istore_k(creation, half_of_entries), "set the size of indices");
+  return creation;
+}
+
 /// Properties of a transfer that converts elements in pieces of this size: HDF5 clears the whole buffer, by
 /// default of 1 MiB, at every write of texts.
 hid_t small_buffer() {
@@ -102,12 +111,12 @@ void write_text_attribute(hid_t object, const std::string& name, const std::stri
   write_attribute(object, name, memory_type(ElementType::text), &text);
 }
 
-/// Rows per chunk: about 2 KiB, at least one. Files have about thirty growing datasets, most of them of few
+/// Rows per chunk: about 1 KiB, at least one. Files have about thirty growing datasets, most of them of few
 /// rows, and each takes a whole chunk.
 hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
   std::uint64_t row = element_size;
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
-  return std::max<std::uint64_t>(2048 / std::max<std::uint64_t>(row, 1), 1);
+  return std::max<std::uint64_t>(1024 / std::max<std::uint64_t>(row, 1), 1);
 }
 
 }  // namespace
@@ -122,13 +131,14 @@ Hdf5Writer::~Hdf5Writer() = default;
 
 Hdf5Writer Hdf5Writer::create(const std::string& path) {
   silence_error_stack();
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + path);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, small_indices(), H5P_DEFAULT), H5Fclose,
+              "create " + path);
   return Hdf5Writer(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
 }
 
 Hdf5Writer Hdf5Writer::in_memory(const std::string& name) {
   silence_error_stack();
-  Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory_access()), H5Fclose,
+  Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, small_indices(), memory_access()), H5Fclose,
               "create " + name);
   return Hdf5Writer(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
 }

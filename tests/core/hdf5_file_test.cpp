@@ -190,6 +190,18 @@ TEST_F(Hdf5FileTest, GrowingDatasetsTakeTheirRowsInPieces) {
   EXPECT_EQ(read_back(file).read_texts("why"), why);
 }
 
+/// As in the file of a short trace: what surrounds the values may not be many times as large as they are.
+TEST_F(Hdf5FileTest, GrowingDatasetsOfFewRowsTakeLittleSpace) {
+  constexpr std::size_t datasets = 40;
+  Hdf5Writer file = Hdf5Writer::in_memory("file");
+  for (std::size_t i = 0; i < datasets; ++i) {
+    const std::string name = "x" + std::to_string(i);
+    file.create_dataset(growing(name, ElementType::real, {0, 2}));
+    file.write_rows(name, 0, std::vector<double>(40, 1.0));
+  }
+  EXPECT_LT(file.image().size(), datasets * 2048);
+}
+
 TEST_F(Hdf5FileTest, RowsCanBeWrittenAgainWithoutGrowing) {
   Hdf5Writer file = Hdf5Writer::create(path);
   file.create_dataset(growing("p", ElementType::real, {0, 2}));
