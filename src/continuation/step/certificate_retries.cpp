@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace eigentrail {
 namespace {
@@ -31,10 +32,8 @@ constexpr double share_of_work = 0.36;
 /// given up earlier. A larger share certifies a few more steps of sensitive eigenvalues, at a high price.
 constexpr double free_in_vain = 1e9;
 constexpr double share_in_vain = 0.12;
-/// The work in vain, in multiplications, from which on a track that fails is tested on fewer steps: after one
-/// failure on the next one, then after pauses of 1, 3, 7 ... steps.
+/// The work in vain, in multiplications, from which on a track that failed on the last step rejects none.
 constexpr double noticed_in_vain = 2.5e8;
-constexpr int most_doublings = 6;
 /// For each factorization of a mode, of n^3 / 3 multiplications, its corrections, its series and the search
 /// for events take about so many times n^2: solutions and products with single vectors, which are several
 /// times slower than factorizations.
@@ -54,32 +53,19 @@ Uncertified CertificateRetries::treatment(const PathFrame& frame, double h, doub
 
 TrackTest CertificateRetries::test_of(std::uint64_t lineage, CertificateBudget budget, bool costly) const {
   if (budget == CertificateBudget::spent) return TrackTest::none;
-  const auto known = std::find_if(failing_.begin(), failing_.end(),
-                                  [&](const Failing& one) { return one.lineage == lineage; });
-  if (known == failing_.end() || !costly) return TrackTest::strict;
-  return known->pause > 0 || budget == CertificateBudget::spent_in_vain ? TrackTest::none
-                                                                        : TrackTest::lenient;
+  const bool failed = std::find(failing_.begin(), failing_.end(), lineage) != failing_.end();
+  if (!failed || !costly) return TrackTest::strict;
+  return budget == CertificateBudget::spent_in_vain ? TrackTest::none : TrackTest::lenient;
 }
 
 void CertificateRetries::count_step(const std::vector<std::uint64_t>& lineages,
                                     const std::vector<TrackTest>& tests, const std::vector<bool>& certified) {
   recent_ *= forgetting;
-  std::vector<Failing> failing;  // tracks that are gone are dropped
+  const std::vector<std::uint64_t> before = std::exchange(failing_, {});  // tracks that are gone are dropped
   for (std::size_t i = 0; i < lineages.size() && i < tests.size() && i < certified.size(); ++i) {
-    if (certified[i]) continue;
-    const auto known = std::find_if(failing_.begin(), failing_.end(),
-                                    [&](const Failing& one) { return one.lineage == lineages[i]; });
-    Failing next = known == failing_.end() ? Failing{lineages[i]} : *known;
-    if (tests[i] == TrackTest::none) {
-      if (known == failing_.end()) continue;
-      next.pause = std::max(next.pause - 1, 0);
-    } else {
-      next.pause = (1 << std::min(next.failures, most_doublings)) - 1;
-      ++next.failures;
-    }
-    failing.push_back(next);
+    const bool failed = std::find(before.begin(), before.end(), lineages[i]) != before.end();
+    if (!certified[i] && (failed || tests[i] != TrackTest::none)) failing_.push_back(lineages[i]);
   }
-  failing_ = std::move(failing);
 }
 
 CertificateBudget certificate_budget(const RunCounts& counts, Eigen::Index n, double progress) {

@@ -47,21 +47,9 @@ class CertificateRetries {
   /// With every step that is taken, earlier failures count less by this factor.
   static constexpr double forgetting = 0.5;
 
-  /// A track that was not certified when it was last tested.
-  struct Failing {
-    std::uint64_t lineage = 0;
-    int failures = 0;  ///< one after the other, on steps that were taken
-    int pause = 0;     ///< steps until the next test
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit(self.lineage, self.failures, self.pause);
-    }
-  };
-
-  double recent_ = 0.0;  ///< failures of late
-  int all_ = 0;          ///< failures so far
-  std::vector<Failing> failing_;
+  double recent_ = 0.0;                 ///< failures of late
+  int all_ = 0;                         ///< failures so far
+  std::vector<std::uint64_t> failing_;  ///< tracks that were not certified when they were last tested
 };
 
 /// What is left of the limits of the work for the certificate: a fixed amount, which small models never
@@ -69,7 +57,7 @@ class CertificateRetries {
 /// covered.
 CertificateBudget certificate_budget(const RunCounts& counts, Eigen::Index n, double progress);
 
-/// Whether the work in vain so far is so large that tracks that fail are tested on fewer steps.
+/// Whether the work in vain so far is so large that tracks that failed on the last step reject none.
 bool is_costly_in_vain(const RunCounts& counts);
 
 }  // namespace eigentrail
