@@ -1,7 +1,6 @@
 #include "eigentrail/core/chebyshev.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -23,39 +22,17 @@ Eigen::Index significant(const ComplexVector& coefficients) {
   return top;
 }
 
-/// sum_k c_k T_k(u).
-Complex chebyshev_sum(const ComplexVector& coefficients, Complex u) {
-  Complex sum = 0.0, term = 1.0, next = u;
-  for (const Complex c : coefficients) {
-    sum += c * term;
-    term = std::exchange(next, 2.0 * u * next - term);
-  }
-  return sum;
-}
-
-/// A place around [-1, 1] where the sum is large, so that no root is close to it.
-Complex place_without_root(const ComplexVector& coefficients) {
-  constexpr std::array places{Complex(2.0, 0.0), Complex(-2.0, 0.0), Complex(0.0, 2.0), Complex(0.0, -2.0)};
-  return *std::max_element(places.begin(), places.end(), [&](Complex a, Complex b) {
-    return std::abs(chebyshev_sum(coefficients, a)) < std::abs(chebyshev_sum(coefficients, b));
-  });
-}
-
-/// Eigenvalues of A - u B next to `shift` first of all, from those of (A - shift B)^-1 B: a small leading
-/// coefficient of the polynomial appears in B and does not spoil them, as a division by it would. None if
-/// LAPACK fails.
-std::vector<Complex> finite_eigenvalues(ComplexMatrix A, ComplexMatrix B, Complex shift) {
+/// Eigenvalues u of A - u B by the QZ algorithm. A small leading coefficient of the polynomial appears in B
+/// and does not spoil the eigenvalues, as a division by it would.
+std::vector<Complex> finite_eigenvalues(ComplexMatrix A, ComplexMatrix B) {
   const auto n = static_cast<lapack_int>(A.rows());
-  A -= shift * B;
-  std::vector<lapack_int> pivots(static_cast<std::size_t>(n));
-  ComplexVector reciprocals(n);
-  if (LAPACKE_zgesv(LAPACK_COL_MAJOR, n, n, A.data(), n, pivots.data(), B.data(), n) != 0 ||
-      LAPACKE_zgeev(LAPACK_COL_MAJOR, 'N', 'N', n, B.data(), n, reciprocals.data(), nullptr, 1, nullptr, 1) !=
-          0)
-    return {};
+  ComplexVector alpha(n);
+  ComplexVector beta(n);
+  const lapack_int info = LAPACKE_zggev(LAPACK_COL_MAJOR, 'N', 'N', n, A.data(), n, B.data(), n, alpha.data(),
+                                        beta.data(), nullptr, 1, nullptr, 1);
   std::vector<Complex> values;
-  for (const Complex reciprocal : reciprocals) {
-    if (reciprocal != 0.0) values.push_back(shift + 1.0 / reciprocal);
+  for (lapack_int i = 0; info == 0 && i < n; ++i) {
+    if (beta[i] != 0.0) values.push_back(alpha[i] / beta[i]);
   }
   return values;
 }
@@ -94,8 +71,7 @@ std::vector<Complex> chebyshev_roots(const ComplexVector& coefficients) {
   colleague.row(top - 1) -= factor / largest * coefficients.head(top).transpose();
   ComplexMatrix scale = ComplexMatrix::Identity(top, top);
   scale(top - 1, top - 1) = leading;
-  std::vector<Complex> roots = finite_eigenvalues(std::move(colleague), std::move(scale),
-                                                  place_without_root(coefficients.head(top + 1)));
+  std::vector<Complex> roots = finite_eigenvalues(std::move(colleague), std::move(scale));
   for (Complex& root : roots) root = 0.5 * (1.0 + root);
   return roots;
 }

@@ -134,7 +134,8 @@ void LociTables::begin_row(const std::string& dimension) {
   ++begun_.at(dimension);
   for (Column& column : columns_) {
     if (column.dataset.dimensions[0] != dimension) continue;
-    const auto lengthen = [&]<class Element>(std::vector<Element>& rows) {
+    const auto lengthen = [&](auto& rows) {
+      using Element = typename std::decay_t<decltype(rows)>::value_type;
       rows.resize(rows.size() + width(column), not_set<Element>());
     };
     std::visit(lengthen, column.rows);

@@ -13,7 +13,7 @@ constexpr int most_iterations = 30;
 /// As a share of the distance from the real axis (of mu: of its size): the last move, and moves that may be
 /// rounding.
 constexpr double settled_move = 1e-12;
-constexpr double loosely_settled = 1e-4;
+constexpr double loosely_settled = 1e-6;
 /// As a share of the move before: a longer move no longer shrinks. Beside a double root each is half as long.
 constexpr double still_shrinking = 0.7;
 /// As a share of the reach, and of mu: longer moves are shortened.
