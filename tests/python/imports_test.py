@@ -53,7 +53,8 @@ class Imports(ProgramTest):
                            (lambda: et.from_files("fast", "a.lin"), "is not read; known: .*openfast"),
                            (lambda: et.from_files("numpy", "a.npz", digts=4), "is no option of numpy"),
                            (lambda: et.from_files("numpy", "missing.npz"), "missing.npz"),
-                           (lambda: et.from_files("elastodyn", DATA / "NRELOffshrBsline5MW_Blade.dat"), "eigentrail import elastodyn")):
+                           (lambda: et.from_files("elastodyn", DATA / "NRELOffshrBsline5MW_Blade.dat", length=61.5, hub_radius=1.5),
+                            "eigentrail import elastodyn")):
             with self.subTest(text), self.assertRaisesRegex(et.SceneError, text):
                 call()
 
