@@ -83,14 +83,6 @@ void check_values(const std::vector<double>& values) {
        "; leave one of them out");
 }
 
-/// Names tell states apart: in the loci file, and where samples have their states in different orders.
-void check_names(const std::vector<std::string>& names) {
-  const auto same = first_repetition(names);
-  if (same)
-    fail("state_names has '" + names[same->first] + "' twice, for states " + std::to_string(same->first + 1) +
-         " and " + std::to_string(same->second + 1) + "; give every state a name of its own");
-}
-
 template <class List>
 void check_length(const List& list, const char* name, Eigen::Index n) {
   if (!list.empty() && static_cast<Eigen::Index>(list.size()) != n)
@@ -276,7 +268,9 @@ void check(const SampledData& data) {
     check_samples(named.name, data.*named.samples, data.count(), n);
   check_A_error(data, n);
   check_length(data.state_names, "state_names", n);
-  check_names(data.state_names);
+  // Names tell states apart: in the loci file, and where samples have their states in different orders.
+  if (const std::string fault = fault_of_names(data.state_names, n); !fault.empty())
+    fail("state_names " + fault);
   check_length(data.state_units, "state_units", n);
   check_length(data.derivative_order, "derivative_order", n);
   check_length(data.state_frames, "frame", n);
