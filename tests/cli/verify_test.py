@@ -112,6 +112,16 @@ class Verify(ProgramTest):
         self.change(edit)
         self.assert_fails()
 
+    def test_an_eigenvalue_that_is_not_at_the_edge_of_its_band_fails(self):
+        self.assert_passes("[trace]\nparameter = \"p\"\nfrom = 0\nto = 3\nmodes = { band = [3.5, 6] }\n[matrix_family]\n"
+                           "M = [ [[1, 0], [0, 1]] ]\nK = [ [[1, 0], [0, 25]], [[2, 0], [0, -10]], [[1, 0], [0, 1]] ]\n")
+
+        def edit(file):
+            self.assertTrue(all(b"band_edge" in line for line in file["events"][()]))
+            file["event_value"][...] = 3.6
+        self.change(edit)
+        self.assertIn("has not the value 3.6", self.verify().stderr)
+
     def test_a_doubled_mode_fails(self):
         def edit(file):
             series = file["dense_output"][...]

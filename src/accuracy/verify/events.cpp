@@ -88,6 +88,7 @@ std::string broken_condition(const CheckedFile& file, const Event& event, std::s
                  : "its value is not the damping ratio";
     case EventKind::damping_ratio:
     case EventKind::log_decrement:
+    case EventKind::band_edge:
     case EventKind::resonance: {
       const Vector parameters = file.setup.parameters_at(event.p);
       const double excitation = excitation_series(

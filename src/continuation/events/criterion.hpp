@@ -17,10 +17,11 @@ namespace eigentrail {
 ///   damping_ratio  Re mu + value |mu|       this and the following: of complex pairs only
 ///   log_decrement  Re mu + zeta |mu|        with zeta = value / sqrt(4 pi^2 + value^2)
 ///   resonance      Im s - value excitation  times |mu|^2 in the reciprocal chart
+///   band_edge      Im s - value             likewise
 ///   extremum       Re mu / |mu|             its extrema are the events, not its zeros
 struct Criterion {
   EventKind kind = EventKind::flutter;
-  double value = 0.0;  ///< damping ratio, logarithmic decrement, or multiple of the excitation
+  double value = 0.0;  ///< damping ratio, logarithmic decrement, multiple of the excitation, or rad/s
 
   bool asks_for_extrema() const { return kind == EventKind::extremum; }
   bool asks_for_pairs() const { return kind != EventKind::flutter; }
