@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "accuracy/eigen_triples.hpp"
+#include "continuation/events/criterion.hpp"
 #include "core/gaps.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 
@@ -164,34 +165,6 @@ double error_on_step(const RecordedPath& path, std::size_t step, Eigen::Index mo
   return largest;
 }
 
-/// A function of p and s that vanishes at an event, and how much it changes at most per change of s.
-struct Criterion {
-  double value = nan;
-  double per_s = 1.0;
-};
-
-Criterion criterion(const Event& event, Complex s, double excitation) {
-  const double size = std::abs(s);
-  const double ratio = -s.real() / size;
-  switch (event.kind) {
-    case EventKind::flutter:
-    case EventKind::divergence:
-      return {s.real(), 1.0};
-    case EventKind::damping_ratio:
-      return {ratio - event.value, 1.0 / size};
-    case EventKind::log_decrement: {
-      constexpr double turn = 6.283185307179586;
-      return {ratio - event.value / std::hypot(event.value, turn), 1.0 / size};
-    }
-    case EventKind::resonance:
-      return {s.imag() - event.value * excitation, 1.0};
-    case EventKind::band_edge:
-      return {s.imag() - event.value, 1.0};
-    default:
-      return {};
-  }
-}
-
 /// Walks from an event along the path as long as the criterion may vanish.
 class IntervalWalk {
  public:
@@ -200,7 +173,7 @@ class IntervalWalk {
       : options_(options), path_(path), errors_(errors), problem_(problem_along(model, options.parameter)) {}
 
   EventInterval around(const Event& event) const {
-    if (event.modes.empty() || !std::isfinite(criterion(event, Complex(1.0, 1.0), 0.0).value)) return {};
+    if (event.modes.empty() || !criterion_of(event)) return {};
     const auto positions = path_.positions(event.p);
     if (positions.empty()) return {};
     const double place = positions.front().in_steps();
@@ -217,19 +190,13 @@ class IntervalWalk {
     const Eigen::Index mode = event.modes.front();
     const Complex s = path_.eigenvalues_at(at)[mode];
     if (!std::isfinite(s.real())) return false;
-    double excitation = 0.0;
-    if (options_.events.excitation) {
-      const Parameters& parameters = problem_.model.description().parameters;
-      Vector si = parameters_at(problem_, path_.parameter_at(at));
-      parameters.to_si(std::span<double>(si.data(), parameters.size()));
-      excitation =
-          options_.events.excitation->evaluate(std::span<const double>(si.data(), parameters.size()));
-    }
-    const Criterion here = criterion(event, s, excitation);
     const double p = path_.parameter_at(at);
+    const double excitation = excitation_series(options_.events, problem_.model.description().parameters,
+                                                parameters_at(problem_, p), 0)[0];
     const bool of_growth = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
     const double error = of_growth ? errors_.growth_at(at.step, mode, p) : errors_.at(at.step, mode, p);
-    return std::abs(here.value) <= here.per_s * error;
+    // Near its zero no criterion changes by more than s does.
+    return std::abs(criterion_value(*criterion_of(event), s, Chart::finite, excitation)) <= error;
   }
 
   double end_of(const Event& event, double place, double direction) const {

@@ -86,21 +86,17 @@ std::string broken_condition(const CheckedFile& file, const Event& event, std::s
       return std::abs(event.value + event.s.real() / std::abs(event.s)) <= rounding
                  ? ""
                  : "its value is not the damping ratio";
-    case EventKind::damping_ratio:
-    case EventKind::log_decrement:
-    case EventKind::band_edge:
-    case EventKind::resonance: {
-      const Vector parameters = file.setup.parameters_at(event.p);
-      const double excitation = excitation_series(
-          file.setup.options.events, file.setup.model->description().parameters, parameters, 0)[0];
-      return std::abs(criterion_value({event.kind, event.value}, event.s, Chart::finite, excitation)) <=
-                     rounding * scale
-                 ? ""
-                 : "its eigenvalue has not the value " + few_digits(event.value);
-    }
     default:
-      return "";
+      break;
   }
+  const std::optional<Criterion> criterion = criterion_of(event);
+  if (!criterion) return "";
+  const Vector parameters = file.setup.parameters_at(event.p);
+  const double excitation = excitation_series(file.setup.options.events,
+                                              file.setup.model->description().parameters, parameters, 0)[0];
+  return std::abs(criterion_value(*criterion, event.s, Chart::finite, excitation)) <= rounding * scale
+             ? ""
+             : "its eigenvalue has not the value " + few_digits(event.value);
 }
 
 std::string fault_of(const CheckedFile& file, const Event& event, FreshSolver& solver) {

@@ -34,9 +34,17 @@ Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, 
       return chart == Chart::finite ? im - criterion.value : -im - criterion.value * square;
     case EventKind::extremum:
       return re / sqrt(square);
-    default:
-      return re;
+    case EventKind::flutter:
+    case EventKind::divergence:
+    case EventKind::collision:
+    case EventKind::crossing:
+    case EventKind::veering:
+    case EventKind::fold:
+    case EventKind::branch_point:
+    case EventKind::cusp:
+      break;
   }
+  return re;
 }
 
 RealSeries as_series(const Vector& coefficients) {
@@ -59,6 +67,28 @@ std::vector<Criterion> criteria_of(const EventOptions& options) {
   for (const WantedEvent& event : options.wanted) criteria.push_back({event.kind, event.value});
   if (options.extrema) criteria.push_back({EventKind::extremum, 0.0});
   return criteria;
+}
+
+std::optional<Criterion> criterion_of(const Event& event) {
+  switch (event.kind) {
+    case EventKind::flutter:
+    case EventKind::divergence:
+      return Criterion{EventKind::flutter, 0.0};
+    case EventKind::damping_ratio:
+    case EventKind::log_decrement:
+    case EventKind::resonance:
+    case EventKind::band_edge:
+      return Criterion{event.kind, event.value};
+    case EventKind::collision:
+    case EventKind::crossing:
+    case EventKind::veering:
+    case EventKind::fold:
+    case EventKind::branch_point:
+    case EventKind::extremum:
+    case EventKind::cusp:
+      break;
+  }
+  return std::nullopt;
 }
 
 Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Chart chart,

@@ -1,6 +1,7 @@
 // Criteria: real functions of an eigenvalue whose zeros or extrema are events.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "eigentrail/continuation/event.hpp"
@@ -29,6 +30,10 @@ struct Criterion {
 
 /// The criteria that a trace evaluates: flutter always, and those that the scene requests.
 std::vector<Criterion> criteria_of(const EventOptions& options);
+
+/// The criterion that is zero at an event; none for events that are not zeros of a function of one
+/// eigenvalue.
+std::optional<Criterion> criterion_of(const Event& event);
 
 /// Taylor coefficients of the criterion, as many as `mu` has, from those of mu and of the excitation
 /// frequency (rad/s; used for resonances only). Not finite where mu vanishes and the function has no power
