@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from loci_comparison import differences
-from program import (BLADE, CURVES, EXIT_NUMBERS_FAILED, FAMILY, PROGRAM, PUSHED_PENDULUM, TIME_LIMIT, ProgramTest, each_case,
+from program import (BLADE, CURVES, EXIT_NUMBERS_FAILED, FAMILY, OTHER_KERNEL, PROGRAM, PUSHED_PENDULUM, TIME_LIMIT, ProgramTest, each_case,
                      edited)
 
 MAP = ("map", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--grid", "7x9")
@@ -75,11 +75,11 @@ class Parts(ProgramTest):
 
     def test_parts_of_other_kernels_of_blas_are_joined_with_a_warning(self):
         first = self.parts(MAP, 2)[0]
-        with unittest.mock.patch.dict(os.environ, OPENBLAS_CORETYPE="Prescott"):
+        with unittest.mock.patch.dict(os.environ, OPENBLAS_CORETYPE=OTHER_KERNEL):
             second = self.parts(MAP, 2, "other")[1]
         run = self.run_program("merge", first, second, "-o", "merged.h5", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertRegex(run.stderr, rf"^eigentrail: warning: {second}: was computed with the kernel Prescott of BLAS, {first} with .*\n$")
+        self.assertRegex(run.stderr, rf"^eigentrail: warning: {second}: was computed with the kernel {OTHER_KERNEL} of BLAS, {first} with .*\n$")
 
     def test_maps_are_joined_without_the_files_of_the_scene(self):
         self.write("scene.toml", FAMILY.replace("[matrix_family]", '[parameters]\np = 0.0\nq = 1.0\n[matrix_family]')
