@@ -27,6 +27,7 @@ extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::HouseholderQR<Eigen::MatrixXcd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>;
+extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
 extern template class Eigen::ComplexSchur<Eigen::MatrixXcd>;
 extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
@@ -50,3 +51,24 @@ extern template double Eigen::internal::rcond_invmatrix_L1_norm_estimate(
     const Eigen::PartialPivLU<Eigen::MatrixXcd>&);
 extern template double Eigen::internal::rcond_invmatrix_L1_norm_estimate(
     const Eigen::FullPivLU<Eigen::MatrixXd>&);
+extern template double Eigen::internal::rcond_invmatrix_L1_norm_estimate(const Eigen::LLT<Eigen::MatrixXd>&);
+
+// Solutions for right sides that are matrices or vectors in memory: other expressions are evaluated first.
+extern template void Eigen::PartialPivLU<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&,
+                                                                       Eigen::MatrixXd&) const;
+extern template void Eigen::PartialPivLU<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
+                                                                       Eigen::VectorXd&) const;
+extern template void Eigen::PartialPivLU<Eigen::MatrixXcd>::_solve_impl(const Eigen::MatrixXcd&,
+                                                                        Eigen::MatrixXcd&) const;
+extern template void Eigen::FullPivLU<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,
+                                                                    Eigen::VectorXd&) const;
+extern template void Eigen::HouseholderQR<Eigen::MatrixXcd>::_solve_impl(const Eigen::MatrixXcd&,
+                                                                         Eigen::MatrixXcd&) const;
+extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&,
+                                                                              Eigen::MatrixXd&) const;
+extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>::_solve_impl(const Eigen::VectorXcd&,
+                                                                               Eigen::VectorXcd&) const;
+extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(
+    const Eigen::MatrixXd&, Eigen::MatrixXd&) const;
+extern template struct Eigen::internal::compute_inverse<Eigen::MatrixXd, Eigen::MatrixXd>;
+extern template struct Eigen::internal::compute_inverse<Eigen::MatrixXcd, Eigen::MatrixXcd>;

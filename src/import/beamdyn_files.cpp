@@ -80,7 +80,7 @@ class BeamDynBladeReader {
       for (int c = 0; c < 6; ++c) matrix(r, c) = row[static_cast<std::size_t>(c)];
     }
     const Matrix6 symmetric = 0.5 * (matrix + matrix.transpose());
-    if (symmetric.llt().info() != Eigen::Success)
+    if (Eigen::LLT<Eigen::MatrixXd>(symmetric).info() != Eigen::Success)
       lines_.fail(what + ": the matrix must be positive definite");
     for (int r = 0; r < 6; ++r) {
       for (int c = 0; c < r; ++c) {

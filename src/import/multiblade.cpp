@@ -57,8 +57,8 @@ MultibladeTransformation multiblade(Eigen::Index n, const std::vector<BladeState
 
 Matrix in_multiblade_coordinates(const Matrix& A, const MultibladeTransformation& transformation,
                                  double rotor_speed) {
-  return transformation.T.partialPivLu().solve(A * transformation.T -
-                                               rotor_speed * transformation.derivative);
+  return transformation.T.partialPivLu().solve(
+      Matrix(A * transformation.T - rotor_speed * transformation.derivative));
 }
 
 }  // namespace eigentrail

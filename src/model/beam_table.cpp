@@ -103,7 +103,7 @@ std::vector<BeamTable::Stiffness> stiffness_columns(const TableReader& table, St
     }
   }
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (values[k].llt().info() != Eigen::Success)
+    if (Eigen::LLT<Eigen::MatrixXd>(values[k]).info() != Eigen::Success)
       table.fail("file", "the matrix of station " + std::to_string(k + 1) +
                              " (columns S11, S21, ... S66) must be positive definite; it is not");
   }
@@ -127,7 +127,7 @@ std::vector<BeamTable::Stiffness> full_stiffness(Draft& draft, TableReader& tabl
     }
     if ((S - S.transpose()).norm() > 1e-12 * S.norm())
       table.fail("stiffness", "must be symmetric; it is not" + Draft::where_on_trace(p));
-    if (S.llt().info() != Eigen::Success)
+    if (Eigen::LLT<Eigen::MatrixXd>(S).info() != Eigen::Success)
       table.fail("stiffness", "must be positive definite; it is not" + Draft::where_on_trace(p));
   }
   BeamTable::Stiffness S;

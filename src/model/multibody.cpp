@@ -110,7 +110,8 @@ void settle_states(const Model& model, Eigen::Index n_states, const Vector& para
     Linearization linearization;
     if (model.residual(path, 0, rest, counts) || model.linearize(path, 0, linearization, counts)) return;
     const Matrix K = linearization.K[0].dense().bottomRightCorner(n_states, n_states);
-    const Vector change = Eigen::PartialPivLU<Matrix>(K).solve(rest.force.col(0).tail(n_states));
+    const Vector load = rest.force.col(0).tail(n_states);
+    const Vector change = Eigen::PartialPivLU<Matrix>(K).solve(load);
     if (!change.allFinite()) return;
     x.tail(n_states) -= change;
     if (change.norm() <= settled * x.tail(n_states).norm()) return;

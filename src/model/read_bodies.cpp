@@ -129,7 +129,8 @@ void check_inertia(const Draft& draft, const TableReader& table, const Expressio
       table.fail("inertia", "must be symmetric; it is not" + Draft::where_on_trace(k));
     }
     const Eigen::Matrix3d second = 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second, Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(second),
+                                                                Eigen::EigenvaluesOnly);
     if (solver.eigenvalues()[0] >= -1e-12 * scale) continue;
     table.fail("inertia", "no body has it: one principal moment exceeds the sum of the other two" +
                               Draft::where_on_trace(k));

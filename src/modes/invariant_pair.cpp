@@ -89,8 +89,8 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
   }
   const ComplexMatrix R = W.adjoint() * both;
   const Eigen::PartialPivLU<ComplexMatrix> lu(R.transpose());
-  Z = lu.solve(Z.transpose()).transpose();
-  Lambda = lu.solve((R * Lambda).transpose()).transpose();
+  Z = lu.solve(ComplexMatrix(Z.transpose())).transpose();
+  Lambda = lu.solve(ComplexMatrix((R * Lambda).transpose())).transpose();
   W.bottomRows(n) /= gamma;
 }
 

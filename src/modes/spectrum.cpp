@@ -433,12 +433,13 @@ InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Com
   ComplexMatrix X(a.rows(), k);
   for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = std::sin(1.0 + 1.7 * static_cast<double>(i));
   for (int i = 0; i < iterations; ++i) {
-    X = orthonormal(ComplexMatrix(lu.solve(complex_b * X)));
+    X = orthonormal(ComplexMatrix(lu.solve(ComplexMatrix(complex_b * X))));
   }
   InvariantPair pair;
   pair.is_real = is_real;
   pair.Z = X.topRows(n);
-  pair.Lambda = scaling.gamma * (complex_b * X).householderQr().solve(complex_a * X);
+  pair.Lambda =
+      scaling.gamma * ComplexMatrix(complex_b * X).householderQr().solve(ComplexMatrix(complex_a * X));
   if (is_real) {
     // A real pencil and a real shift give a real subspace; the QR basis of it is real.
     pair.Z.imag().setZero();

@@ -273,7 +273,8 @@ Shift beside_rigid_motions(const SparsePencil& pencil, const PencilSolver& facto
   for (int i = 0; i < rounds; ++i) {
     Q = orthonormal(factors.solve(Matrix(inertia * Q)));
   }
-  const Matrix small = (Q.transpose() * (inertia * Q)).partialPivLu().solve(Q.transpose() * (pencil.K * Q));
+  const Matrix small =
+      Matrix(Q.transpose() * (inertia * Q)).partialPivLu().solve(Matrix(Q.transpose() * (pencil.K * Q)));
   Vector values = Eigen::EigenSolver<Matrix>(small, false).eigenvalues().cwiseAbs();
   std::sort(values.begin(), values.end());
   const auto lowest = std::find_if(values.begin(), values.end(), [&](double value) {

@@ -109,7 +109,7 @@ Place uphill(const Quadratic<double>& w, double sign, double radius) {
   Eigen::Matrix2d hessian;
   hessian << w.hessian[0], w.hessian[1], w.hessian[1], w.hessian[2];
   const Place slope = sign * Place(w.gradient[0], w.gradient[1]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(hessian);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(hessian)};
   const Place components = solver.eigenvectors().transpose() * slope;
   const Place curvatures = solver.eigenvalues().cwiseAbs().cwiseMax(slope.norm() / radius);
   const Place step = solver.eigenvectors() * components.cwiseQuotient(curvatures.cwiseMax(1e-300));

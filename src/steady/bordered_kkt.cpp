@@ -105,7 +105,7 @@ void BorderedKkt::solve(const Vector& r, const Vector& g, const Vector& h, Vecto
   for (Eigen::Index i = 0; i < h.size(); ++i) right[f + i] = h[i] - rows_of_x_.col(i).dot(dx);
   if (border_.lambda.size() > 0)
     right.tail(h.size()) -= border_.lambda * multipliers(r, dx, Vector::Zero(h.size()));
-  const Vector solution = columns_.cwiseProduct(lu_.solve(rows_.cwiseProduct(right)));
+  const Vector solution = columns_.cwiseProduct(lu_.solve(Vector(rows_.cwiseProduct(right))));
   du = solution.tail(h.size());
   Vector change = Q2 * solution.head(f);
   for (Eigen::Index i = 0; i < du.size(); ++i) change += du[i] * follow_.col(i);

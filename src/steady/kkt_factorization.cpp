@@ -97,7 +97,8 @@ void KktFactorization::solve(const Vector& r, const Vector& g, Vector& dx, Vecto
   if (Q2.cols() > 0) {
     const Vector tangential = Q2.transpose() * (r - K_ * dx);
     const bool regular = reciprocal_condition_ > singular;
-    dx += Q2 * (regular ? tangent_.solve(tangential).eval() : singular_tangent_.solve(tangential).eval());
+    dx += Q2 *
+          (regular ? tangent_.solve(tangential).eval() : Vector(singular_tangent_.solve(Matrix(tangential))));
   }
   dl = constraints_.transposed_pseudo_inverse_times(r - K_ * dx);
 }

@@ -84,8 +84,9 @@ StepPencil::StepPencil(const PathNode& left, const PathNode& right, double lengt
     return own;
   };
   const TangentBasis& there = right.basis;
-  const Matrix equations =
-      columns({parts->left}).front().completeOrthogonalDecomposition().pseudoInverse().transpose();
+  const Matrix own_rows = columns({parts->left}).front();
+  const Matrix identity = Matrix::Identity(own_rows.rows(), own_rows.rows());
+  const Matrix equations = own_rows.completeOrthogonalDecomposition().solve(identity).transpose();
   turn(change_of(equations, columns(there.left.empty() ? MatrixSeries{there.parts->left} : there.left)),
        change_of(parts->coordinates(static_cast<std::size_t>(part)).transpose(), columns(there.T)));
 }
