@@ -38,68 +38,6 @@ TEST(Resume, OtherPathAtABranchPointIsTheSame) {
   }
 }
 
-/// Three equal oscillators through critical damping, of which one is traced: pairs become real modes.
-TEST(Resume, TraceOfEqualPartsIsTheSame) {
-  for (const char* modes : {"all", "2"}) {
-    EXPECT_EQ(difference(make_setting(R"(
-[trace]
-parameter = "p"
-from = 1
-to = 3
-[matrix_family]
-M = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
-C = [[[0, 0, 0], [0, 0, 0], [0, 0, 0]], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
-K = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
-)",
-                                      {{"modes", modes}})),
-              "")
-        << modes;
-  }
-}
-
-/// Two equal masses on springs in a rotating frame: one is traced, and their equilibrium moves.
-TEST(Resume, TraceOfEqualPartsThatMoveIsTheSame) {
-  EXPECT_EQ(difference(make_setting(R"(
-[parameters]
-omega = 1.0
-[trace]
-parameter = "omega"
-from = 1
-to = 12
-[frame]
-angular_velocity = [0, 0, "omega"]
-[[point]]
-name = "a"
-mass = 1
-position = [1, 0, 0]
-[[point]]
-name = "b"
-mass = 1
-position = [-1, 0, 0]
-[[spring]]
-from = [0, 0, 0.2]
-to = "a"
-stiffness = 1000
-free_length = 1
-[[spring]]
-from = [0.7, -0.9, 1]
-to = "a"
-stiffness = 500
-free_length = 1
-[[spring]]
-from = [0, 0, 0.2]
-to = "b"
-stiffness = 1000
-free_length = 1
-[[spring]]
-from = [-0.7, 0.9, 1]
-to = "b"
-stiffness = 500
-free_length = 1
-)")),
-            "");
-}
-
 TEST(Resume, TraceWithoutCertificateIsTheSame) {
   EXPECT_EQ(difference(scene_setting("rotating_mass", {{"certify", "false"}, {"order", "1"}})), "");
 }

@@ -136,38 +136,5 @@ TEST(TraceOptions, BranchesAreANumberOrAList) {
   EXPECT_EQ(read(range + "branch = \"1, 3,2\"\n").branch, (std::vector<int>{1, 3, 2}));
 }
 
-struct BadOption {
-  std::string name, trace, fragment;
-};
-
-class BadTraceOptions : public testing::TestWithParam<BadOption> {};
-
-TEST_P(BadTraceOptions, AreRefusedWithTheKey) {
-  try {
-    read("parameter = \"p\"\nfrom = 0\n" + GetParam().trace);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(GetParam().fragment), std::string::npos) << error.what();
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, BadTraceOptions,
-    testing::Values(
-        BadOption{"MissingTo", "", "[trace] to: is missing"},
-        BadOption{"EmptyRange", "to = 0\n", "scene.toml:4:1: [trace] to: equals from"},
-        BadOption{"Tolerance", "to = 1\ntolerance = 2\n", "scene.toml:5:1: [trace] tolerance"},
-        BadOption{"Order", "to = 1\norder = 5\n", "[trace] order: must lie between 1 and 4"},
-        BadOption{"FractionalOrder", "to = 1\norder = 2.5\n", "[trace] order: expected a whole number"},
-        BadOption{"NoModes", "to = 1\nmodes = 0\n", "[trace] modes: must be at least 1"},
-        BadOption{"ModesText", "to = 1\nmodes = \"some\"\n", "[trace] modes"},
-        BadOption{"NoSuchBranch", "to = 1\nbranch = 4\n", "[trace] branch: must be 1, 2 or 3; found 4"},
-        BadOption{"BranchText", "to = 1\nbranch = \"1, left\"\n", "[trace] branch: expected whole numbers"},
-        BadOption{"NegativeStep", "to = 1\nmax_step = -1\n", "[trace] max_step: must be positive"},
-        BadOption{"CertifyText", "to = 1\ncertify = \"no\"\n", "[trace] certify: expected true or false"},
-        BadOption{"CertifyNumber", "to = 1\ncertify = 1\n", "[trace] certify: expected true or false"},
-        BadOption{"UnknownKey", "to = 1\ntolerence = 1e-3\n", "did you mean 'tolerance'?"}),
-    [](const auto& tested) { return tested.param.name; });
-
 }  // namespace
 }  // namespace eigentrail::test::trace_options_test
