@@ -12,6 +12,12 @@ inline Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt1993
   return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
 }
 
+/// From a seed.
+inline Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  return random_matrix(rows, columns, engine);
+}
+
 inline ComplexMatrix random_complex(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& engine) {
   ComplexMatrix B(rows, columns);
   B.real() = random_matrix(rows, columns, engine);
