@@ -25,6 +25,11 @@ inline ComplexMatrix random_complex(Eigen::Index rows, Eigen::Index columns, std
   return B;
 }
 
+inline ComplexMatrix random_complex(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  return random_complex(rows, columns, engine);
+}
+
 /// Polynomial family with a well-conditioned mass, gyroscopic and circulatory parts: series of length 4 about
 /// 0.
 inline ReducedPencil random_family(Eigen::Index n, unsigned seed) {
