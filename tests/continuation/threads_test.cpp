@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "eigentrail/continuation/point_modes.hpp"
-#include "eigentrail/continuation/recorded_path.hpp"
 #include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::threads_test {
 namespace {
@@ -25,15 +25,9 @@ Setting family(int n) {
 RecordedPath path_with(const Setting& setting, int threads) {
   TraceOptions options = setting.options;
   options.threads = threads;
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    return true;
-  };
-  const TraceResult result = trace(*setting.model, options, observer);
+  const auto [result, path] = trace_path(*setting.model, options);
   EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
-  return recorder.path();
+  return path;
 }
 
 TEST(Threads, GiveTheSameBits) {

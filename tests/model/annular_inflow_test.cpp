@@ -6,6 +6,7 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
+#include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test::annular_inflow_test {
@@ -155,14 +156,7 @@ TEST(AnnularInflow, CollectiveIsTrimmedToTheThrust) {
 }
 
 TEST(AnnularInflow, MistakesAreNamed) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      (void)make_setting(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
+  const auto message = [](const std::string& text) { return input_error([&] { (void)make_setting(text); }); };
   std::string uniform = rotor("tip_loss = true\n", strips_on(1.0, radius, "pitch", strips));
   uniform.replace(uniform.find("annular"), 7, "uniform");
   EXPECT_NE(message(uniform).find("needs model = \"annular\""), std::string::npos) << message(uniform);
