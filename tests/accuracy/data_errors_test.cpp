@@ -13,6 +13,7 @@
 #include "support/families.hpp"
 #include "support/sampled.hpp"
 #include "support/spectra.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::data_errors_test {
 namespace {
@@ -200,25 +201,13 @@ Matrix crossing(double p) {
   return A;
 }
 
-struct TracedScene {
-  RecordedPath path;
-  TraceResult result;
+struct TracedScene : TracedPath {
   std::optional<DataErrors> errors;
   std::vector<StableRange> ranges;
 };
 
 TracedScene traced(const Setting& setting) {
-  TracedScene traced;
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.started = [](const TraceStart&) {};
-  observer.checkpoint = [](const Checkpoint&) { return true; };
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    return true;
-  };
-  traced.result = trace(*setting.model, setting.options, observer);
-  traced.path = recorder.path();
+  TracedScene traced{trace_path(*setting.model, setting.options), {}, {}};
   traced.errors = data_errors(*setting.model, setting.options, traced.path, traced.result.events);
   const EigenvalueAccuracy accuracy{setting.options.tolerance, traced.result.s_ref};
   traced.ranges = stable_ranges(traced.path, traced.result.events, accuracy);

@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 
 from command_test_case import CommandTest, blade_eigenvalues
-from program import BLADE, ProgramTest, each_case
+from program import BLADE
 
 NARROW = ("--tolerances", "1e-3,1e-6", "--orders", "2,3", "--samples", "20", "--repeat", "1")
 N_RUNS = 2 * 2 + 2 + 2 * 4 * 2
@@ -81,40 +81,6 @@ class Accuracy(CommandTest):
         self.study("-o", "study.h5")
         self.study("-o", "study.h5", "--force", "--to", "50")
         self.assertGreater(np.min(self.open("study.h5")["sample_parameter"]), 50)
-
-
-BAD_STUDIES = [
-    ("tolerance that no trace takes", ["--tolerances", "1e-3,1e-20"], ["--tolerances: expected numbers from 1e-13"]),
-    ("word as tolerance", ["--tolerances", "fine"], ["--tolerances: expected numbers separated", "found 'fine'"]),
-    ("empty list", ["--tolerances", "1e-3,"], ["--tolerances: expected numbers separated"]),
-    ("no tolerance", ["--tolerances", "none"], ["--tolerances: expected numbers from"]),
-    ("order five", ["--orders", "5"], ["--orders: expected numbers from 1 to 4"]),
-    ("half an order", ["--orders", "1.5"], ["--orders: expected numbers separated", "found '1.5'"]),
-    ("grid of four points", ["--grids", "4"], ["--grids: expected numbers from 5"]),
-    ("no samples", ["--samples", "0"], ["--samples: expected a number from 1"]),
-    ("no repetition", ["--repeat", "0"], ["--repeat: expected a number from 1"]),
-    ("unknown parameter", ["--parameter", "omga"], ["did you mean 'omega'?"]),
-    ("empty range", ["--to", "100"], ["[trace] to: equals from (100)"]),
-    ("loci file as output", ["-o", "blade.h5", "--force"], ["blade.h5: is no readable work-precision study", "--force"]),
-    ("existing study without force", ["-o", "study.h5"], ["study.h5: exists already", "--force"]),
-    ("scene as output", ["-o", "scene.toml", "--force"], ["scene.toml: is no readable work-precision study"]),
-    ("output in a missing folder", ["-o", "none/new.h5"], ["none/new.h5: the folder none does not exist"]),
-    ("output without a name", ["--output="], ["--output"]),
-]
-
-
-@each_case(BAD_STUDIES)
-class BadStudy(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.write("scene.toml", BLADE)
-        self.run_well("trace", "scene.toml", "-o", "blade.h5", "--quiet")
-        self.run_well("accuracy", "scene.toml", *NARROW, "--grids", "none", "-o", "study.h5", "--quiet")
-
-    def check(self, options, fragments):
-        before = self.contents()
-        self.assert_refused(self.run_program("accuracy", "scene.toml", *options), fragments)
-        self.assertEqual(self.contents(), before)
 
 
 if __name__ == "__main__":

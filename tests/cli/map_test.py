@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 
 from command_test_case import CommandTest
-from program import BLADE, EXIT_NUMBERS_FAILED, PUSHED_PENDULUM, ProgramTest, each_case, edited
+from program import BLADE, EXIT_NUMBERS_FAILED, PUSHED_PENDULUM, edited
 
 # s^2 + (p^2 + q^2 - 1) s + 0.8 - p - q = 0: a circle of flutter and a line of divergence.
 CIRCLE = """\
@@ -165,76 +165,6 @@ class Map(CommandTest):
         self.assertRegex(run.stderr, r"\Aeigentrail: scene\.toml: no cell of the window is known, nothing is written; "
                                      r"[^\n]*no equilibrium found[^\n]*\n\Z")
         self.assertEqual(self.contents(), before)
-
-
-WINDOW = {"--second": "drag", "--from": "1", "--to": "2", "--grid": "3", "--output": "new.h5"}
-
-# Options that replace those of WINDOW; flags have the value None.
-BAD_MAPS = [
-    ("second parameter is the first", {"--second": "omega"}, ["--second: 'omega' is the first parameter already"]),
-    ("unknown parameter", {"--second": "darg"}, ["--second: no parameter is called 'darg'", "'drag'"]),
-    ("derived parameter", {"--second": "reach"}, ["--second: 'reach' is defined by an expression"]),
-    ("unknown first parameter", {"--parameter": "omga"}, ["[trace] parameter", "did you mean 'omega'?"]),
-    ("empty window", {"--to": "1"}, ["--to: equals --from (1): the window is empty"]),
-    ("empty range of the first", {"--first-to": "100"}, ["[trace] to: equals from (100)"]),
-    ("infinite window", {"--to": "inf"}, ["--to: is not a finite number; found inf"]),
-    ("word as end", {"--to": "far"}, ["--to", "far"]),
-    ("one line", {"--grid": "1"}, ["--grid: expected at least 2 values of each parameter, found 1x1"]),
-    ("one cell a line", {"--grid": "5x1"}, ["--grid: expected at least 2", "5x1"]),
-    ("negative grid", {"--grid": "-3"}, ["--grid: expected at least 2", "-3x-3"]),
-    ("huge grid", {"--grid": "100000x100000"}, ["--grid: expected at most 10000000 cells, found 100000x100000"]),
-    ("grid beyond all numbers", {"--grid": "9" * 20}, ["--grid: expected N, or NxM", "found '999"]),
-    ("word as grid", {"--grid": "fine"}, ["--grid: expected N, or NxM", "found 'fine'"]),
-    ("half a grid", {"--grid": "5x"}, ["--grid: expected N, or NxM", "found '5x'"]),
-    ("grid of three numbers", {"--grid": "5x5x5"}, ["--grid: expected N, or NxM"]),
-    ("too many threads", {"--jobs": "100000"}, ["--jobs: expected 0 to 1024, found 100000"]),
-    ("less than no thread", {"--jobs": "-1"}, ["--jobs: expected 0 to 1024, found -1"]),
-    ("mass that becomes negative", {"--second": "mass", "--from": "-1"},
-     ["[[point]] 1 mass: must not be negative; found -1"]),
-    ("loci file as output", {"--output": "blade.h5", "--force": None}, ["blade.h5: is no readable stability map", "--force"]),
-    ("existing map without force", {"--output": "map.h5"}, ["map.h5: exists already", "--force"]),
-    ("scene as output", {"--output": "scene.toml", "--force": None}, ["scene.toml: is no readable stability map"]),
-    ("folder as output", {"--output": "folder"}, ["folder: is a folder"]),
-    ("output in a missing folder", {"--output": "none/new.h5"}, ["none/new.h5: the folder none does not exist"]),
-    ("output with a name too long", {"--output": "x" * 300}, ["x" * 300]),
-    ("output without a name", {"--output": ""}, ["--output"]),
-]
-
-
-@each_case(BAD_MAPS)
-class BadMap(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        scene = edited(BLADE, 'position = ["1 + length", 0, 0]', 'position = ["reach", 0, 0]')
-        self.write("scene.toml", edited(scene, "[trace]", 'reach  = "1 + length"\n\n[trace]'))
-        (self.folder / "folder").mkdir()
-        self.run_well("trace", "scene.toml", "-o", "blade.h5", "--quiet")
-        self.run_well(*self.arguments({"--output": "map.h5", "--grid": "2"}), "--quiet")
-
-    @staticmethod
-    def arguments(options):
-        return ["map", "scene.toml", *(name if value is None else f"{name}={value}"
-                                       for name, value in {**WINDOW, **options}.items())]
-
-    def refuse(self, arguments, fragments):
-        before = self.contents()
-        self.assert_refused(self.run_program(*arguments), fragments)
-        self.assertEqual(self.contents(), before)
-
-    def check(self, options, fragments):
-        self.refuse(self.arguments(options), fragments)
-
-    def test_no_second_parameter(self):
-        self.refuse(["map", "scene.toml", "--from", "1", "--to", "2", "-o", "new.h5"], ["--second"])
-
-    def test_parameter_named_like_a_dataset(self):
-        self.write("scene.toml", BLADE.replace("drag ", "margin ").replace('"drag"', '"margin"'))
-        self.refuse(self.arguments({"--second": "margin"}),
-                    ["scene.toml:7:", "[parameters] margin: a parameter of the map cannot be called 'margin'"])
-
-    def test_maps_are_no_loci_files(self):
-        self.refuse(["eval", "map.h5", "--at", "1"], ["map.h5: holds 'eigentrail-map', not loci"])
-        self.refuse(["trace", "scene.toml", "-o", "map.h5", "--force"], ["map.h5: is no readable loci file"])
 
 
 if __name__ == "__main__":

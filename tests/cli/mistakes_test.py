@@ -226,9 +226,10 @@ COMMANDS = [
 class MistakeInAScene(CommandTest):
     def check(self, edits, fragments):
         where = self.write_marked(BLADE, list(zip(edits[::2], edits[1::2])))
+        before = self.contents()
         run = self.run_program("trace", "scene.toml")
         self.assert_refused(run, fragments, f"eigentrail: scene.toml:{where}")
-        self.assertFalse((self.folder / "scene.h5").exists())
+        self.assertEqual(self.contents(), before)
 
 
 @each_case([(name, edits, fragments) for name, edits, *fragments in ROTORS])

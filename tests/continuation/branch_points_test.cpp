@@ -1,79 +1,43 @@
 // The search for branch points on a step, and their events: the pitchfork of a pendulum in closed form, from
-// both of its paths, and a fold that is none.
+// both of its paths, and a fold that is none; the choice there and the search for the other path.
 #include "continuation/path/branch_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "continuation/events/static_points.hpp"
-#include "support/scenes.hpp"
+#include "continuation/on_path.hpp"
+#include "continuation/path/other_path.hpp"
 
 namespace eigentrail::test::branch_points_test {
 namespace {
 
 constexpr double length = 1.5;
-constexpr double critical = 2.0 * 9.81 / length;
+constexpr double critical = critical_stiffness;
 
-/// Hangs from a spring that stays vertical: straight for every stiffness k, tilted for k > critical with
-/// cos(angle) = critical / k.
-Setting hanging(double x, double z, double from = 6.0, double to = 20.0) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[parameters]\nk = 20.0\n[trace]\nparameter = \"k\"\nfrom = " << from << "\nto = " << to
-       << "\n[gravity]\nacceleration = [0, 0, -9.81]\n[[point]]\nname = \"bob\"\nmass = 2.0\nposition = ["
-       << x << ", 0, " << z << "]\n[[rod]]\nfrom = [0, 0, 0]\nto = \"bob\"\nlength = 1.5\n[[fixed]]\n"
-       << "point = \"bob\"\ncoordinate = \"y\"\n[[guided_spring]]\npoint = \"bob\"\n"
-       << "direction = [0, 0, 1]\nstiffness = \"k\"\n";
-  return make_setting(text.str());
-}
-Setting straight(double from = 6.0, double to = 20.0) {
-  return hanging(0.0, -length, from, to);
+Setting hanging(double from = 6.0, double to = 20.0) {
+  return spring_pendulum(hanging_straight, from, to);
 }
 
-/// A point of the path without modes, and what belongs to it.
-struct OnPath {
-  OnPath(Setting given, double p)
-      : setting(std::move(given)),
-        problem(setting.problem()),
-        frame{PathRange{problem.traced, setting.options.from, setting.options.to}},
-        points(problem, frame, counts),
-        reduced(reduce_at(problem, p, {problem.model.initial_guess(parameters_at(problem, p)), Vector()},
-                          Matrix(), counts)),
-        node(differentiate_point(problem, reduced, counts).value_or(PathNode{})),
-        log{events, frame.range, problem.thresholds},
-        search{points, setting.options, criteria, log, 4} {
-    frame.direction = setting.options.to > setting.options.from ? 1.0 : -1.0;
-    frame.largest_position = reduced.equilibrium.x.norm();
-  }
-  void take_plane() {
-    frame.plane = plane_along(node.path, problem.traced, frame.scales(), frame.direction);
-    reparametrize(node, *frame.plane, problem.traced);
-  }
+struct Bridged : OnPath {
+  using OnPath::OnPath;
   bool bridge(double h, bool with_end = true) {
     std::optional<PathNode> next;
     if (with_end) next = points.follow({node, {}}, h)->node;
     return bridge_branch_point(points, frame, node, h, next ? &*next : nullptr, tries);
   }
-  Setting setting;
-  PathProblem problem;
-  RunCounts counts;
-  PathFrame frame;
-  PointSolver points;
-  PathPoint reduced;
-  PathNode node;
-  std::vector<Criterion> criteria;
-  std::vector<Event> events;
-  EventLog log;
-  EventSearch search;
+  /// The point on the branch point, computed on the bridge.
+  PathNode on_it() {
+    return points.follow({node, {}}, frame.branch_point.coordinate - frame.coordinate(node))->node;
+  }
   int tries = 0;
 };
 
 /// The tangent stiffness of the straight pendulum is critical - k.
 TEST(SidePoint, HasSignAndLogarithmOfTheStiffness) {
   for (const double k : {10.0, 13.0, critical + 1e-3, 17.0}) {
-    OnPath at(straight(), k);
+    Bridged at(hanging(), k);
     const auto side = side_point(at.points, at.reduced, 1);
     ASSERT_TRUE(side);
     EXPECT_EQ(side->coordinate, k);
@@ -85,14 +49,14 @@ TEST(SidePoint, HasSignAndLogarithmOfTheStiffness) {
 
 /// Up to rounding, which has no sign.
 TEST(SidePoint, OnTheBranchPointHasNoSign) {
-  OnPath at(straight(), critical);
+  Bridged at(hanging(), critical);
   const auto side = side_point(at.points, at.reduced, 1);
   ASSERT_TRUE(side);
   EXPECT_EQ(side->stiffness.sign, 0.0);
 }
 
 TEST(SidePoint, IsNoneWithoutAPointOrWithOtherFreedoms) {
-  OnPath at(straight(), 12.0);
+  Bridged at(hanging(), 12.0);
   EXPECT_FALSE(side_point(at.points, at.reduced, 2));
   at.reduced.status = PointStatus::no_equilibrium;
   EXPECT_FALSE(side_point(at.points, at.reduced, 1));
@@ -100,7 +64,7 @@ TEST(SidePoint, IsNoneWithoutAPointOrWithOtherFreedoms) {
 
 TEST(BridgeBranchPoint, FindsThePlaceOnTheStraightPathInBothDirections) {
   for (const bool down : {false, true}) {
-    OnPath at(down ? straight(20.0, 6.0) : straight(), down ? 14.0 : 12.5);
+    Bridged at(down ? hanging(20.0, 6.0) : hanging(), down ? 14.0 : 12.5);
     ASSERT_TRUE(at.bridge(down ? -1.5 : 1.0));
     EXPECT_NEAR(at.frame.branch_point.p, critical, 1e-11);
     EXPECT_EQ(at.frame.branch_point.coordinate, at.frame.branch_point.p);
@@ -116,21 +80,21 @@ TEST(BridgeBranchPoint, FindsThePlaceOnTheStraightPathInBothDirections) {
 
 /// Where the end of the step is not found, the stiffness is extrapolated.
 TEST(BridgeBranchPoint, DoesNotNeedTheEndOfTheStep) {
-  OnPath at(straight(), 12.5);
+  Bridged at(hanging(), 12.5);
   ASSERT_TRUE(at.bridge(1.0, false));
   EXPECT_NEAR(at.frame.branch_point.p, critical, 1e-11);
 }
 
 TEST(BridgeBranchPoint, LooksALittleBeyondTheStep) {
-  OnPath near(straight(), 12.5);
+  Bridged near(hanging(), 12.5);
   EXPECT_TRUE(near.bridge(0.5)) << "0.16 steps beyond";
-  OnPath far(straight(), 12.5);
+  Bridged far(hanging(), 12.5);
   EXPECT_FALSE(far.bridge(0.4)) << "0.45 steps beyond";
   EXPECT_EQ(far.tries, 0);
 }
 
 TEST(BridgeBranchPoint, GivesUpAfterSomeTries) {
-  OnPath at(straight(), 12.5);
+  Bridged at(hanging(), 12.5);
   at.tries = 2;
   EXPECT_TRUE(at.bridge(1.0));
   at.frame.bridge.reset();
@@ -143,7 +107,9 @@ TEST(BridgeBranchPoint, GivesUpAfterSomeTries) {
 TEST(BridgeBranchPoint, FindsThePlaceOnTheTiltedPathThatTurnsBack) {
   const double k = 13.4;
   const double cosine = critical / k;
-  OnPath at(hanging(length * std::sqrt(1.0 - cosine * cosine), -length * cosine, 20.0, 6.0), k);
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  const std::string position = "[" + exact_text(length * sine) + ", 0, " + exact_text(-length * cosine) + "]";
+  Bridged at(spring_pendulum(position, 20.0, 6.0), k);
   ASSERT_GT(at.node.path.x(0, 0), 0.1);
   at.take_plane();
   const double h =
@@ -158,7 +124,7 @@ TEST(BridgeBranchPoint, FindsThePlaceOnTheTiltedPathThatTurnsBack) {
 
 /// For comparison: at a fold det K changes its sign like at a branch point. Divided by dp/dsigma it does not.
 TEST(BridgeBranchPoint, AFoldIsNone) {
-  OnPath at(pushed_pendulum({}), 0.97);
+  Bridged at(pushed_pendulum({}), 0.97);
   at.take_plane();
   const PathNode behind = at.points.follow({at.node, {}}, 0.5)->node;
   ASSERT_LT(at.node.path.x(2, 0) * behind.path.x(2, 0), 0.0) << "the fold is on the step";
@@ -168,17 +134,11 @@ TEST(BridgeBranchPoint, AFoldIsNone) {
   EXPECT_EQ(at.tries, 0);
 }
 
-/// A point on the branch point, computed on the bridge.
-PathNode on_it(OnPath& at) {
-  return at.points.follow({at.node, {}}, at.frame.branch_point.coordinate - at.frame.coordinate(at.node))
-      ->node;
-}
-
 TEST(FindBranchPoint, IsTheEventOnTheBridgeAndNowhereElse) {
-  OnPath at(straight(), 12.5);
+  Bridged at(hanging(), 12.5);
   ASSERT_TRUE(at.bridge(1.0));
   EXPECT_TRUE(find_branch_point(at.search, at.node).events.empty());
-  const FoundEvents found = find_branch_point(at.search, on_it(at));
+  const FoundEvents found = find_branch_point(at.search, at.on_it());
   ASSERT_EQ(found.events.size(), 1U);
   EXPECT_EQ(found.events[0].kind, EventKind::branch_point);
   EXPECT_EQ(found.events[0].p, at.frame.branch_point.p);
@@ -188,9 +148,9 @@ TEST(FindBranchPoint, IsTheEventOnTheBridgeAndNowhereElse) {
 
 /// The pair becomes real at s = 0 where the stiffness of the straight path vanishes.
 TEST(AsStaticEvent, AZeroEigenvalueAtABranchPointIsThatPoint) {
-  OnPath at(straight(), 12.5);
+  Bridged at(hanging(), 12.5);
   ASSERT_TRUE(at.bridge(1.0));
-  const PathNode node = on_it(at);
+  const PathNode node = at.on_it();
   Event event;
   event.kind = EventKind::collision;
   event.p = at.frame.branch_point.p;
@@ -208,7 +168,7 @@ TEST(AsStaticEvent, AZeroEigenvalueAtABranchPointIsThatPoint) {
 }
 
 TEST(BridgeStart, BeginsOnABranchPoint) {
-  OnPath at(straight(critical, 20.0), critical);
+  Bridged at(hanging(critical, 20.0), critical);
   const auto start = bridge_start(at.points, at.frame, at.reduced);
   ASSERT_TRUE(start);
   EXPECT_EQ(start->status, PointStatus::computed);
@@ -219,9 +179,44 @@ TEST(BridgeStart, BeginsOnABranchPoint) {
 
 TEST(BridgeStart, LeavesRegularPointsAlone) {
   for (const double k : {critical + 1e-3, 15.0}) {
-    OnPath at(straight(k, 20.0), k);
+    Bridged at(hanging(k, 20.0), k);
     EXPECT_FALSE(bridge_start(at.points, at.frame, at.reduced));
     EXPECT_FALSE(at.frame.bridge);
+  }
+}
+
+TEST(EquilibriumMoves, WhereItDependsOnTheParameter) {
+  EXPECT_TRUE(equilibrium_moves(hanging().problem()));
+  const Setting family = make_setting(
+      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [[[1]]]\nK = [[[1]], [[1]]]\n");
+  EXPECT_FALSE(equilibrium_moves(family.problem()));
+}
+
+TEST(ChoiceAt, TakesTheListInOrderAndASingleOneForAll) {
+  EXPECT_EQ(choice_at({}, 0), 1);
+  EXPECT_EQ(choice_at({2}, 0), 2);
+  EXPECT_EQ(choice_at({2}, 7), 2);
+  EXPECT_EQ(choice_at({1, 3}, 0), 1);
+  EXPECT_EQ(choice_at({1, 3}, 1), 3);
+  EXPECT_EQ(choice_at({1, 3}, 2), 1) << "after the end of the list";
+}
+
+/// On the bridge: the other path begins tilted, and needs a plane, since there k has a minimum.
+TEST(SurveyBranchPoint, FindsTheOtherPathOfAPitchfork) {
+  Bridged at(hanging(10.0), 12.9, OnPath::With::modes);
+  ASSERT_TRUE(at.bridge(0.4));
+  const PathNode node = at.on_it();
+  ASSERT_TRUE(at.frame.on_branch_point(node));
+  const BranchSurvey survey = survey_branch_point(at.points, node, 1, "here");
+  ASSERT_TRUE(survey.other) << survey.note;
+  EXPECT_NE(survey.note.find("here"), std::string::npos);
+  for (const int choice : {2, 3}) {
+    const auto start = start_on_other_path(at.points, node, *survey.other, choice);
+    ASSERT_TRUE(start) << choice;
+    EXPECT_GT(start->next_step, 0.0);
+    // The bob leaves to one side: x' at the branch point is not zero, and opposite for the two choices.
+    const double side = start->node.path.x(0, 1) * start->frame.direction;
+    EXPECT_GT(std::abs(side), 1e-6);
   }
 }
 

@@ -3,42 +3,18 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <sstream>
 
-#include "support/scenes.hpp"
+#include "continuation/on_path.hpp"
 
 namespace eigentrail::test::branch_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
 
-/// One freedom in the x-z plane, massless rod of length 1.5, hinged at the origin.
-std::string pendulum(const std::string& parameters, const std::string& trace, const std::string& position,
-                     const std::string& elements) {
-  return "[parameters]\n" + parameters + "[trace]\ntolerance = 1e-9\n" + trace +
-         "[gravity]\nacceleration = [0, 0, -9.81]\n[[point]]\nname = \"bob\"\nmass = 2.0\nposition = " +
-         position +
-         "\n[[rod]]\nfrom = [0, 0, 0]\nto = \"bob\"\nlength = 1.5\n[[fixed]]\npoint = \"bob\"\n"
-         "coordinate = \"y\"\n" +
-         elements;
-}
-
-const std::string straight = "[0, 0, -1.5]";
-const std::string tilted = "[1.2, 0, -0.9]";
-
-/// Hangs from a spring that stays vertical (seed paper, Sect. 6.2): tilted for k > m g / l, straight for
-/// every k.
-constexpr double critical_stiffness = 2.0 * 9.81 / 1.5;
-
-Setting spring_pendulum(double from, double to, const std::string& position, const std::string& branch,
-                        const std::string& options = "") {
-  std::ostringstream trace;
-  trace.precision(17);
-  trace << options << "parameter = \"k\"\nfrom = " << from << "\nto = " << to << "\n";
-  if (!branch.empty()) trace << "branch = " << branch << "\n";
-  return make_setting(
-      pendulum("k = 20.0\n", trace.str(), position,
-               "[[guided_spring]]\npoint = \"bob\"\ndirection = [0, 0, 1]\nstiffness = \"k\"\n"));
+/// Path of the spring pendulum, by its guess and the choice at the branch point.
+Setting on_spring(double from, double to, const std::string& position, OptionTexts options = {}) {
+  options.emplace_back("tolerance", "1e-9");
+  return spring_pendulum(position, from, to, options);
 }
 
 /// -s^2 on the two paths.
@@ -52,14 +28,27 @@ double straight_stiffness(double k) {
 /// Turns with its plane about the vertical: straight for every speed, tilted for omega^2 > g / l.
 const double critical_speed = std::sqrt(9.81 / 1.5);
 
-Setting whirling_pendulum(double from, double to, const std::string& branch,
-                          const std::string& options = "") {
-  std::ostringstream trace;
-  trace.precision(17);
-  trace << options << "parameter = \"omega\"\nfrom = " << from << "\nto = " << to << "\nbranch = " << branch
-        << "\n";
-  return make_setting(
-      pendulum("omega = 1.0\n", trace.str(), straight, "[frame]\nangular_velocity = [0, 0, \"omega\"]\n"));
+Setting whirling_pendulum(double from, const OptionTexts& options) {
+  return make_setting("[parameters]\nomega = 1.0\n[trace]\ntolerance = 1e-9\nparameter = \"omega\"\nfrom = " +
+                          exact_text(from) + R"(
+to = 5
+[frame]
+angular_velocity = [0, 0, "omega"]
+[gravity]
+acceleration = [0, 0, -9.81]
+[[point]]
+name = "bob"
+mass = 2.0
+position = [0, 0, -1.5]
+[[rod]]
+from = [0, 0, 0]
+to = "bob"
+length = 1.5
+[[fixed]]
+point = "bob"
+coordinate = "y"
+)",
+                      options);
 }
 
 /// Every mode at every passage through p has s^2 = -stiffness of one of the paths.
@@ -94,7 +83,7 @@ const std::vector<double> beside{1e-8, 1e-5, 1e-2, 1.0, 5.0};
 TEST(BranchPoint, IsPassedOnTheStraightPath) {
   for (const bool down : {true, false}) {
     const auto trace =
-        record_trace(down ? spring_pendulum(20, 6, straight, "") : spring_pendulum(6, 20, straight, ""));
+        record_trace(down ? on_spring(20, 6, hanging_straight) : on_spring(6, 20, hanging_straight));
     expect_pitchfork(trace, critical_stiffness);
     for (const double d : beside) {
       for (const double k : {critical_stiffness - d, critical_stiffness + d})
@@ -104,7 +93,7 @@ TEST(BranchPoint, IsPassedOnTheStraightPath) {
 }
 
 TEST(BranchPoint, IsPassedOnTheTiltedPathWhichTurnsBack) {
-  const auto trace = record_trace(spring_pendulum(20, 6, tilted, ""));
+  const auto trace = record_trace(on_spring(20, 6, hanging_tilted));
   expect_pitchfork(trace, critical_stiffness);
   EXPECT_EQ(trace.nodes.back().p, 20.0);
   EXPECT_NEAR(trace.nodes.back().path.x(0, 0), -trace.nodes.front().path.x(0, 0), 1e-9);
@@ -116,7 +105,7 @@ TEST(BranchPoint, IsPassedOnTheTiltedPathWhichTurnsBack) {
 
 TEST(BranchPoint, IsLeftFromTheStraightPathToEitherSide) {
   for (const auto& [branch, side] : {std::pair("2", 1.0), std::pair("3", -1.0)}) {
-    const auto trace = record_trace(spring_pendulum(6, 20, straight, branch));
+    const auto trace = record_trace(on_spring(6, 20, hanging_straight, {{"branch", branch}}));
     expect_pitchfork(trace, critical_stiffness);
     EXPECT_EQ(trace.nodes.back().p, 20.0);
     const double cosine = critical_stiffness / 20.0;
@@ -132,10 +121,10 @@ TEST(BranchPoint, IsLeftFromTheStraightPathToEitherSide) {
 }
 
 TEST(BranchPoint, IsLeftFromTheTiltedPathTowardsTheEndFirst) {
-  const auto onward = record_trace(spring_pendulum(20, 6, tilted, "2"));
+  const auto onward = record_trace(on_spring(20, 6, hanging_tilted, {{"branch", "2"}}));
   expect_pitchfork(onward, critical_stiffness);
   EXPECT_EQ(onward.nodes.back().p, 6.0);
-  const auto back = record_trace(spring_pendulum(20, 6, tilted, "\"3, 1\""));
+  const auto back = record_trace(on_spring(20, 6, hanging_tilted, {{"branch", "3, 1"}}));
   expect_pitchfork(back, critical_stiffness);
   EXPECT_EQ(back.nodes.back().p, 20.0);
   for (const double d : beside) {
@@ -150,8 +139,8 @@ TEST(BranchPoint, IsLeftFromTheTiltedPathTowardsTheEndFirst) {
 TEST(BranchPoint, MayBeWhereTheTraceBegins) {
   for (const std::string order : {"1", "2", "3", "4"}) {
     for (const auto& [branch, tilts] : {std::pair("1", false), std::pair("2", true)}) {
-      const auto trace =
-          record_trace(spring_pendulum(critical_stiffness, 20, straight, branch, "order = " + order + "\n"));
+      const auto trace = record_trace(
+          on_spring(critical_stiffness, 20, hanging_straight, {{"branch", branch}, {"order", order}}));
       expect_pitchfork(trace, critical_stiffness);
       for (const double d : beside) {
         const double k = critical_stiffness + d;
@@ -166,7 +155,7 @@ TEST(BranchPoint, MayBeWhereAWhirlingPendulumBegins) {
   for (const std::string order : {"1", "2", "3", "4"}) {
     for (const std::string branch : {"1", "2", "3"}) {
       const auto trace =
-          record_trace(whirling_pendulum(critical_speed, 5, branch, "order = " + order + "\n"));
+          record_trace(whirling_pendulum(critical_speed, {{"branch", branch}, {"order", order}}));
       ASSERT_EQ(trace.result.status, TraceStatus::completed)
           << trace.result.message << ", order " << order << ", branch " << branch;
       expect_pitchfork(trace, critical_speed);
@@ -183,41 +172,22 @@ TEST(BranchPoint, MayBeWhereAWhirlingPendulumBegins) {
 /// The reference magnitude comes from the only mode, which is slow at the start. So it is small, and hardly
 /// any value counts as zero.
 TEST(BranchPoint, BesideTheStartAsksForAReference) {
-  const std::string branch = "1";
-  const auto fails = record_trace(whirling_pendulum(critical_speed - 1e-3, 5, branch));
+  const auto fails = record_trace(whirling_pendulum(critical_speed - 1e-3, {}));
   EXPECT_EQ(fails.result.status, TraceStatus::step_too_small);
   EXPECT_NE(fails.result.message.find("give a larger `reference`"), std::string::npos)
       << fails.result.message;
-  const auto passes = record_trace(whirling_pendulum(critical_speed - 1e-3, 5, branch, "reference = 0.01\n"));
+  const auto passes = record_trace(whirling_pendulum(critical_speed - 1e-3, {{"reference", "0.01"}}));
   EXPECT_EQ(passes.result.status, TraceStatus::completed) << passes.result.message;
   expect_pitchfork(passes, critical_speed);
 }
 
 TEST(BranchPoint, MayBeWhereTheTraceEnds) {
-  const auto trace = record_trace(spring_pendulum(20, critical_stiffness, tilted, ""));
+  const auto trace = record_trace(on_spring(20, critical_stiffness, hanging_tilted));
   expect_pitchfork(trace, critical_stiffness);
   EXPECT_EQ(trace.nodes.back().p, critical_stiffness);
   EXPECT_NEAR(trace.nodes.back().path.x(0, 0), 0.0, 1e-8);
   for (const double d : beside)
     expect_squares(trace, critical_stiffness + d, {tilted_stiffness(critical_stiffness + d)});
-}
-
-/// cos(theta) = g / (l omega^2), s^2 = -omega^2 sin^2(theta).
-TEST(BranchPoint, OfAWhirlingPendulum) {
-  const auto stays = record_trace(whirling_pendulum(1, 5, "1"));
-  const auto swings = record_trace(whirling_pendulum(1, 5, "2"));
-  expect_pitchfork(stays, critical_speed);
-  expect_pitchfork(swings, critical_speed);
-  for (const double d : {1e-8, 1e-5, 1e-2, 1.0}) {
-    const double below = critical_speed - d;
-    const double above = critical_speed + d;
-    const auto hanging = [](double omega) { return (critical_speed - omega) * (critical_speed + omega); };
-    const double cosine = std::pow(critical_speed / above, 2);
-    expect_squares(stays, below, {hanging(below)});
-    expect_squares(swings, below, {hanging(below)});
-    expect_squares(stays, above, {hanging(above)});
-    expect_squares(swings, above, {-hanging(above) * (1.0 + cosine)});
-  }
 }
 
 /// Steep von Mises truss: unit springs from (-1, 0) and (1, 0) to an apex of unit mass, free at height 4.
@@ -303,7 +273,7 @@ TEST(BranchPoint, OfATrussThatGivesWaySideways) {
 
 /// The two steps that end at the branch point have the same eigenvalues there.
 TEST(BranchPoint, EigenvaluesAreContinuousAcrossIt) {
-  const auto trace = record_trace(spring_pendulum(20, 6, tilted, "2"));
+  const auto trace = record_trace(on_spring(20, 6, hanging_tilted, {{"branch", "2"}}));
   for (std::size_t i = 0; i + 1 < trace.steps.size(); ++i) {
     const auto at_end =
         step_eigenvalues(trace.steps[i], trace.eigenvalues_of_node(i), trace.eigenvalues_of_node(i + 1), 1.0);

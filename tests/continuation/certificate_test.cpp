@@ -8,9 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "continuation/planted_points.hpp"
 #include "continuation/point/continued_mode.hpp"
+#include "continuation/point/point_solver.hpp"
 #include "continuation/step/modal_certificate.hpp"
 #include "core/matrix_series.hpp"
 #include "eigentrail/modes/matching.hpp"
@@ -25,11 +26,9 @@ namespace {
 
 /// K = [[4 + p, eps], [eps, 4 - p]]: s^2 = -(4 +- sqrt(p^2 + eps^2)), a veering at p = 0.
 Setting veering(double eps) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
-       << "K = [ [[4, " << eps << "], [" << eps << ", 4]], [[1, 0], [0, -1]] ]\n";
-  return make_setting(text.str());
+  const Matrix I = Matrix::Identity(2, 2);
+  return make_setting(
+      family_scene({{I}, {}, {Matrix{{4.0, eps}, {eps, 4.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}}}, -1.0, 1.0));
 }
 
 /// Rows of constant matrices that do not commute: three modes that all turn.
@@ -64,25 +63,8 @@ class Step {
 
   void go_to(double to) {
     length = to - left.p;
-    Prediction prediction;
-    prediction.p = to;
-    prediction.equilibrium = {evaluate_series(left.path.x, length), evaluate_series(left.path.lambda, length),
-                              true};
-    for (const Track& track : left.tracks) {
-      InvariantPair pair;
-      pair.chart = track.pair.chart;
-      pair.is_real = track.pair.is_real;
-      pair.Z = ComplexMatrix::Zero(track.series.Z[0].rows(), track.size());
-      pair.Lambda = ComplexMatrix::Zero(track.size(), track.size());
-      for (std::size_t k = track.series.Z.size(); k-- > 0;) {
-        pair.Z = pair.Z * length + track.series.Z[k];
-        pair.Lambda = pair.Lambda * length + track.series.Lambda[k];
-      }
-      prediction.pairs.push_back(pair);
-    }
-    const PathPoint point = compute_point(problem_, prediction, left.basis.T[0], counts);
-    if (point.status != PointStatus::computed) throw std::runtime_error(point.message);
-    right = differentiate_point(problem_, point, counts).value();
+    const PathFrame frame{PathRange{problem_.traced, left.p, to}};
+    right = PointSolver(problem_, frame, counts).follow(all_tracks(left), length).value().node;
   }
 
   /// Distance of a track from all other eigenvalues, conjugates included.
@@ -155,9 +137,8 @@ Setting chain_family(bool is_turned) {
   const Matrix damping = springs([](double i) { return 0.01 * (1.0 + std::sin(i)); });
   const Matrix stiffness = springs([](double i) { return 10.0 + i; });
   const Matrix change = springs([](double i) { return std::cos(i); });
-  return make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = " +
-                      text({turned(Matrix::Identity(n, n))}) + "\nC = " + text({turned(damping)}) +
-                      "\nK = " + text({turned(stiffness), turned(change)}) + "\n");
+  return make_setting(family_scene(
+      {{turned(Matrix::Identity(n, n))}, {turned(damping)}, {turned(stiffness), turned(change)}}, 0.0, 1.0));
 }
 
 /// The factors of a banded pencil are others, and the certificate is the same.
@@ -229,11 +210,10 @@ TEST(Certificate, ClosesForSinglesOnAStepThatResolvesTheVeering) {
 /// that are used in its place do not close the test of an exchange.
 TEST(Certificate, StaysOpenForSinglesThatAreExchangedInBadlyScaledCoordinates) {
   const auto scaled = [](double eps) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1e8]] ]\n"
-         << "K = [ [[4, " << 1e4 * eps << "], [" << 1e4 * eps << ", 4e8]], [[1, 0], [0, -1e8]] ]\n";
-    return make_setting(text.str());
+    const double e = 1e4 * eps;
+    return make_setting(family_scene(
+        {{Matrix{{1.0, 0.0}, {0.0, 1e8}}}, {}, {Matrix{{4.0, e}, {e, 4e8}}, Matrix{{1.0, 0.0}, {0.0, -1e8}}}},
+        -1.0, 1.0));
   };
   for (const double eps : {1e-2, 1e-3, 1e-6}) {
     Step step(scaled(eps), -0.3, 0.3);
@@ -259,24 +239,8 @@ TEST(Certificate, ClosesInOnePieceWhereStiffAndSoftFreedomsChangeTogether) {
     K(i, i - 1) -= k;
     K(i - 1, i) -= k;
   }
-  std::ostringstream text;
-  text.precision(17);
-  const auto matrix = [&](const Matrix& A) {
-    for (int i = 0; i < n; ++i) {
-      text << (i == 0 ? "[[" : ", [");
-      for (int j = 0; j < n; ++j) text << (j == 0 ? "" : ", ") << A(i, j);
-      text << "]";
-    }
-    text << "]";
-  };
-  text << "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [";
-  matrix(Matrix::Identity(n, n));
-  text << "]\nK = [";
-  matrix(K);
-  text << ", ";
-  matrix(K + 0.1 * Matrix::Identity(n, n));
-  text << "]\n";
-  Step step(make_setting(text.str()), 0.0, 0.2);
+  const Matrix I = Matrix::Identity(n, n);
+  Step step(make_setting(family_scene({{I}, {}, {K, K + 0.1 * I}}, 0.0, 1.0)), 0.0, 0.2);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::uint64_t before = step.counts.certificate_factorizations;
     EXPECT_TRUE(step.certified(i)) << i;
@@ -306,28 +270,16 @@ TEST(Certificate, StaysOpenForSinglesAcrossAnExceptionalPointAndClosesForTheBloc
 
 /// mu = 1/s of p s^2 + 3 s + 2 = 0 passes zero with the mass.
 TEST(Certificate, ClosesInTheReciprocalChartWhereTheMassIsSingular) {
-  const Setting setting = make_setting(
-      "[trace]\nparameter = \"p\"\nfrom = 0.1\nto = 1\n[matrix_family]\nM = [ [[0]], [[1]] ]\nC = [ [[3]] ]\n"
-      "K = [ [[2]] ]\n");
-  PathProblem problem = setting.problem();
-  RunCounts counts;
-  PathPoint point = point_from_guess(problem, 0.1, counts);
-  const bool first = std::abs(point.pairs[0].eigenvalue()) > std::abs(point.pairs[1].eigenvalue());
-  point.pairs = {in_other_chart(point.pairs[first ? 0 : 1])};
-  point.pairs[0] =
-      correct_pair(PencilAtPoint(point.pencil, Chart::reciprocal), point.pairs[0], 1e-3, {}, counts.modes);
-  const PathNode left = differentiate_point(problem, point, counts).value();
-  Prediction prediction;
-  prediction.p = -0.1;
-  prediction.equilibrium = {Vector(left.path.x.col(0)), Vector(), true};
-  prediction.pairs = {point.pairs[0]};
-  prediction.pairs[0].Lambda(0, 0) = 0.033;
-  const PathPoint behind = compute_point(problem, prediction, left.basis.T[0], counts);
-  ASSERT_EQ(behind.status, PointStatus::computed) << behind.message;
-  const PathNode right = differentiate_point(problem, behind, counts).value();
+  Planted family({{Matrix{{0.0}}, Matrix{{1.0}}}, {Matrix{{3.0}}}, {Matrix{{2.0}}}});
+  const auto at = [&](double p) {
+    const double mu = 0.25 * (std::sqrt(9.0 - 8.0 * p) - 3.0);
+    return family.point(p, {{{1.0 / mu}, Chart::reciprocal}});
+  };
+  const PathNode left = at(0.1), right = at(-0.1);
   EXPECT_LT(left.s(0, 0).real(), 0.0);
   EXPECT_GT(right.s(0, 0).real(), 0.0);
-  EXPECT_TRUE(certify_step(StepPencil(left, right, -0.2), left.tracks[0], right.tracks[0], 1.43, counts));
+  EXPECT_TRUE(
+      certify_step(StepPencil(left, right, -0.2), left.tracks[0], right.tracks[0], 1.43, family.counts));
 }
 
 /// Of every track of a step, whether the certificate of all modes at once closes.
@@ -382,29 +334,17 @@ TEST(ModalCertificate, StaysOpenForABlockWhereTheEndIsAnotherOne) {
 /// x' = A(p) x with six real eigenvalues 1e-3 apart that move in common by 1 and turn against each other,
 /// beside six more: lag states of a wing. `coupling` makes the coordinates far from normal.
 Setting common_cluster(double coupling) {
-  std::ostringstream text;
-  text.precision(17);
-  const auto row = [&](const auto& entry) {
-    text << "[ ";
-    for (int i = 0; i < 12; ++i) {
-      text << (i == 0 ? "[" : ", [");
-      for (int j = 0; j < 12; ++j) text << (j == 0 ? "" : ", ") << entry(i, j);
-      text << "]";
+  Matrix A0 = Matrix::Zero(12, 12), A1 = A0;
+  for (int i = 0; i < 12; ++i) {
+    A0(i, i) = i < 6 ? -5.0 - 1e-3 * i : -20.0 - 7.0 * i;
+    A1(i, i) = i < 6 ? -1.0 : 0.3;
+    for (int k = 0; i < 6 && k < 6; ++k) {
+      A0(i, 6 + k) = coupling * std::sin(19.0 + i + 3.0 * k);
+      A1(6 + i, k) = 1e-3 * std::sin(20.0 + 3.0 * i + k) / coupling;
     }
-    text << " ]";
-  };
-  text << "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nA = [ ";
-  row([&](int i, int j) {
-    if (i == j) return i < 6 ? -5.0 - 1e-3 * i : -20.0 - 7.0 * i;
-    return i < 6 && j >= 6 ? coupling * std::sin(1.0 + i + 3.0 * j) : 0.0;
-  });
-  text << ", ";
-  row([&](int i, int j) {
-    if (i == j) return i < 6 ? -1.0 : 0.3;
-    return i >= 6 && j < 6 ? 1e-3 * std::sin(2.0 + 3.0 * i + j) / coupling : 0.0;
-  });
-  text << " ]\n";
-  return make_setting(text.str());
+  }
+  return make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nA = " + text({A0, A1}) +
+                      "\n");
 }
 
 /// Members of a cluster that move a hundred times their distance: one by one and all at once, in an adapted
@@ -463,14 +403,9 @@ TEST(ModalCertificate, NeedsAllTracksOfItsPart) {
 /// States in units that differ by powers of ten: the bounds are about the same.
 TEST(ModalCertificate, ClosesInAsManyPiecesInAnyUnits) {
   const auto bases = [](double unit) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0, 0], [0, 1, 0], "
-            "[0, 0, 1]] ]\nK = [ [[3, "
-         << 0.5 * unit << ", 0.2], [" << 0.4 / unit << ", 9, " << -0.3 / unit << "], [0.1, " << 0.2 * unit
-         << ", 20]], [[1, " << 0.3 * unit << ", 0], [" << 0.2 / unit << ", -1, " << 0.4 / unit
-         << "], [0.5, 0, 2]] ]\n";
-    Step step(make_setting(text.str()), 0.0, 0.6);
+    const Matrix K0{{3.0, 0.5 * unit, 0.2}, {0.4 / unit, 9.0, -0.3 / unit}, {0.1, 0.2 * unit, 20.0}};
+    const Matrix K1{{1.0, 0.3 * unit, 0.0}, {0.2 / unit, -1.0, 0.4 / unit}, {0.5, 0.0, 2.0}};
+    Step step(make_setting(family_scene({{Matrix::Identity(3, 3)}, {}, {K0, K1}}, 0.0, 1.0)), 0.0, 0.6);
     EXPECT_EQ(certified_together(step), std::vector<bool>(3, true)) << unit;
     return step.counts.certificate_bases;
   };

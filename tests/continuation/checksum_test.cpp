@@ -13,14 +13,14 @@ namespace eigentrail::test::checksum_test {
 namespace {
 
 /// A damped, gyroscopic and circulatory system: the pencil has no structure that the test could use.
-PlantedMatrices general(Eigen::Index n, unsigned seed) {
+FamilyMatrices general(Eigen::Index n, unsigned seed) {
   const ReducedPencil family = random_family(n, seed);
   return {{family.M[0]}, {family.C[0]}, {family.K[0]}};
 }
 
 /// Every mode of a family by itself.
 struct Followed {
-  explicit Followed(const PlantedMatrices& matrices) : family(matrices) {
+  explicit Followed(const FamilyMatrices& matrices) : family(matrices) {
     const PathPoint point = family.reduced(0.0);
     spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
     std::vector<Complex> s;

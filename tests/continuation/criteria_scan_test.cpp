@@ -47,62 +47,6 @@ TEST(CriterionHistory, TellsATouchFromACrossingAfterSkippedSamples) {
   EXPECT_EQ(unknown.next(1.0), Seen::nothing) << "nothing is known before the skipped samples";
 }
 
-/// s^2 + 2 d(p) s + 4 with these coefficients of d.
-Planted damped(const std::vector<double>& d) {
-  PlantedMatrices matrices{{Matrix{{1.0}}}, {}, {Matrix{{4.0}}}};
-  for (const double coefficient : d) matrices.C.emplace_back(Matrix{{2.0 * coefficient}});
-  return Planted(matrices);
-}
-Complex root_of(double d) {
-  return {-d, std::sqrt(4.0 - d * d)};
-}
-
-FoundEvents scan(PlantedSearch& planted, const std::vector<double>& d, double from, double to) {
-  const auto damping = [&](double p) {
-    double sum = 0.0;
-    for (std::size_t i = d.size(); i-- > 0;) sum = sum * p + d[i];
-    return sum;
-  };
-  planted.criteria = criteria_of(planted.options.events);
-  CriterionHistories histories;
-  const PathNode left = planted.family.point(from, alone({root_of(damping(from))}));
-  return scan_criteria(planted.search, planted.step(left, to, alone({root_of(damping(to))})), histories);
-}
-
-TEST(ScanCriteria, FindsFlutterInBothDirections) {
-  PlantedSearch planted(damped({0.03, -0.3}));
-  for (const bool back : {false, true}) {
-    const FoundEvents found = scan(planted, {0.03, -0.3}, back ? 0.2 : 0.0, back ? 0.0 : 0.2);
-    ASSERT_EQ(found.events.size(), 1U);
-    const Event& flutter = found.events[0];
-    EXPECT_EQ(flutter.kind, EventKind::flutter);
-    EXPECT_NEAR(flutter.p, 0.1, 1e-12);
-    EXPECT_NEAR(std::abs(flutter.s - 2.0 * j), 0.0, 1e-11);
-    EXPECT_EQ(flutter.direction, 1) << "less stable with growing p, whatever the direction of the trace";
-    EXPECT_EQ(flutter.modes, std::vector<int>{0});
-  }
-}
-
-/// d = 0.3 (p - 0.1) (p - 0.14): both zeros lie between two of the samples.
-TEST(ScanCriteria, FindsTwoZerosBetweenSamples) {
-  const std::vector<double> d{0.3 * 0.014, -0.3 * 0.24, 0.3};
-  PlantedSearch planted(damped(d));
-  const FoundEvents found = scan(planted, d, -0.3, 0.5);
-  std::vector<double> places;
-  for (const Event& event : found.events) {
-    if (event.kind == EventKind::flutter) places.push_back(event.p);
-  }
-  std::sort(places.begin(), places.end());
-  ASSERT_EQ(places.size(), 2U);
-  EXPECT_NEAR(places[0], 0.10, 1e-10);
-  EXPECT_NEAR(places[1], 0.14, 1e-10);
-}
-
-TEST(ScanCriteria, FindsNothingWhereThereIsNothing) {
-  PlantedSearch planted(damped({0.3, 0.1}));
-  EXPECT_TRUE(scan(planted, {0.3, 0.1}, 0.0, 0.2).events.empty());
-}
-
 /// Newborn modes take over what is known of their parents, where the criterion is one of real eigenvalues.
 TEST(InheritHistories, GivesTheHistoryOfTheParent) {
   const std::vector<Criterion> criteria{{EventKind::flutter}, {EventKind::damping_ratio, 0.1}};

@@ -126,15 +126,6 @@ TEST(EventOptions, OperatingRangesAreOnePairOrSeveral) {
   EXPECT_EQ(two.options.events.operating.margin, 0.15);
 }
 
-TEST(EventOptions, RefuseWhatHasNoMeaning) {
-  EXPECT_THROW(oscillator("p = 1", "damping_ratio = 1"), InputError);
-  EXPECT_THROW(oscillator("p = 1", "harmonics = [0]"), InputError);
-  EXPECT_THROW(oscillator("p = 1", "harmonics = [\"p\"]"), InputError);
-  EXPECT_THROW(oscillator("p = 1", "excitation = \"p\""), InputError);
-  EXPECT_THROW(oscillator("p = { value = 1, unit = \"m\" }", "harmonics = [1]"), InputError);
-  EXPECT_THROW(oscillator("p = 1", "harmonic = [1]"), InputError);
-}
-
 TEST(CriterionValue, LogDecrementVanishesWhereADecayingOscillationHasIt) {
   // s = -0.2 + 4j falls by exp(0.2 T) over the period T = 2 pi / 4.
   const Complex s(-0.2, 4.0);

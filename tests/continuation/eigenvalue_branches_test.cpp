@@ -112,7 +112,7 @@ struct PassingStep {
     const Complex twice = j * (2.0 + 0.5 * p);
     return {twice, -damping + j * (2.5 - 0.7 * p), twice};
   }
-  static PlantedMatrices matrices(double damping) {
+  static FamilyMatrices matrices(double damping) {
     const auto diagonal = [](double two, double one) { return Matrix(Vector{{two, one, two}}.asDiagonal()); };
     return {{Matrix::Identity(3, 3)},
             {diagonal(0.0, 2.0 * damping)},

@@ -12,6 +12,7 @@
 #include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "support/matrix_text.hpp"
+#include "support/resumed.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 
 struct EqualParts {
   std::string name;
-  std::vector<Matrix> M, C, K;
+  FamilyMatrices matrices;
   double from = 0.0, to = 1.0;
   EventKind kind = EventKind::collision;
   std::vector<double> places;  ///< of the events of that kind, ascending
@@ -40,9 +41,7 @@ Matrix kronecker(Eigen::Index count, const Matrix& A) {
 EqualParts overdamped(Eigen::Index count) {
   const Matrix I = Matrix::Identity(count, count);
   return {"overdamped_" + std::to_string(count),
-          {I},
-          {Matrix::Zero(count, count), I},
-          {I},
+          {{I}, {0.0 * I, I}, {I}},
           1.0,
           3.0,
           EventKind::collision,
@@ -61,20 +60,18 @@ EqualParts columns(Eigen::Index count, double c, bool mixed) {
   const double critical =
       c > 0.0 ? (b - std::sqrt(b * b - 12.0 * (25.0 + 6.0 * c * c))) / 6.0 : 3.5 - std::sqrt(2.0);
   EqualParts parts{"columns_" + std::to_string(count) + (c > 0.0 ? "_damped" : "") + (mixed ? "_mixed" : ""),
-                   {kronecker(count, M)},
-                   {},
-                   {kronecker(count, K), kronecker(count, P)},
+                   {{kronecker(count, M)}, {}, {kronecker(count, K), kronecker(count, P)}},
                    0.0,
                    4.0,
                    c > 0.0 ? EventKind::flutter : EventKind::collision,
                    std::vector<double>(static_cast<std::size_t>(count), critical)};
-  if (c > 0.0) parts.C = {c * Matrix::Identity(2 * count, 2 * count)};
+  if (c > 0.0) parts.matrices.C = {c * Matrix::Identity(2 * count, 2 * count)};
   if (!mixed) return parts;
   std::mt19937_64 engine(7);
   std::normal_distribution<double> normal;
   const Matrix random = Matrix::NullaryExpr(2 * count, 2 * count, [&] { return normal(engine); });
   const Matrix Q = random.householderQr().householderQ();
-  for (auto* matrices : {&parts.M, &parts.K}) {
+  for (auto* matrices : {&parts.matrices.M, &parts.matrices.K}) {
     for (Matrix& A : *matrices) A = (Q.transpose() * A * Q).eval();
   }
   return parts;
@@ -85,28 +82,28 @@ EqualParts columns(Eigen::Index count, double c, bool mixed) {
 EqualParts ring(Eigen::Index n) {
   const Matrix I = Matrix::Identity(n, n);
   Matrix coupling = 2.0 * I;
-  EqualParts parts{"ring_" + std::to_string(n), {I}, {Matrix::Zero(n, n), I}, {}, 0.1, 4.0,
-                   EventKind::collision,        {}};
+  EqualParts parts{"ring_" + std::to_string(n), {}, 0.1, 4.0, EventKind::collision, {}};
   for (Eigen::Index k = 0; k < n; ++k) {
     coupling(k, (k + 1) % n) -= 1.0;
     coupling((k + 1) % n, k) -= 1.0;
     const double angle = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(n);
     parts.places.push_back(2.0 * std::sqrt(1.0 + 0.6 * (1.0 - std::cos(angle))));
   }
-  parts.K = {I + 0.3 * coupling};
+  parts.matrices = {{I}, {0.0 * I, I}, {I + 0.3 * coupling}};
   std::sort(parts.places.begin(), parts.places.end());
   return parts;
 }
 
+RecordedTrace trace_of(const EqualParts& parts, const OptionTexts& options) {
+  return record_trace(make_setting(family_scene(parts.matrices, parts.from, parts.to), options));
+}
+
 class Traced : public testing::TestWithParam<EqualParts> {
  protected:
-  RecordedTrace trace(const std::string& tolerance, bool backward) const {
-    const EqualParts& c = GetParam();
-    const std::string C = c.C.empty() ? "" : "C = " + text(c.C) + "\n";
-    return record_trace(
-        make_setting("[trace]\nparameter = \"p\"\nfrom = " + exact_text(backward ? c.to : c.from) +
-                     "\nto = " + exact_text(backward ? c.from : c.to) + "\ntolerance = " + tolerance +
-                     "\n[matrix_family]\nM = " + text(c.M) + "\n" + C + "K = " + text(c.K) + "\n"));
+  static RecordedTrace trace(const std::string& tolerance, bool backward) {
+    EqualParts parts = GetParam();
+    if (backward) std::swap(parts.from, parts.to);
+    return trace_of(parts, {{"tolerance", tolerance}});
   }
 };
 
@@ -137,13 +134,13 @@ TEST_P(Traced, HaveAllEigenvaluesEverywhere) {
   for (int i = 1; i < 21; ++i) {
     const double p = c.from + (c.to - c.from) * i / 21.0;
     const auto at = [p, &c](const std::vector<Matrix>& coefficients) {
-      Matrix sum = Matrix::Zero(c.M[0].rows(), c.M[0].cols());
+      Matrix sum = 0.0 * c.matrices.M[0];
       for (std::size_t k = 0; k < coefficients.size(); ++k)
         sum += std::pow(p, static_cast<double>(k)) * coefficients[k];
       return sum;
     };
-    const Matrix G = at(c.M).inverse() * at(c.C);
-    const Matrix H = at(c.M).inverse() * at(c.K);
+    const Matrix G = at(c.matrices.M).inverse() * at(c.matrices.C);
+    const Matrix H = at(c.matrices.M).inverse() * at(c.matrices.K);
     Complex sum = 0.0;
     Complex squares = 0.0;
     for (const Complex s : found.eigenvalues_at(p)) {
@@ -163,20 +160,14 @@ INSTANTIATE_TEST_SUITE_P(EqualParts, Traced,
                                          columns(6, 0.05, true), ring(3), ring(6), ring(12), ring(24)),
                          [](const auto& test) { return test.param.name; });
 
-RecordedTrace trace_of(const EqualParts& c, const std::string& more = "") {
-  const std::string C = c.C.empty() ? "" : "C = " + text(c.C) + "\n";
-  return record_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = " + exact_text(c.from) +
-                                   "\nto = " + exact_text(c.to) + "\ntolerance = 1e-8\norder = 3\n" + more +
-                                   "[matrix_family]\nM = " + text(c.M) + "\n" + C + "K = " + text(c.K) +
-                                   "\n"));
-}
+const OptionTexts usual{{"tolerance", "1e-8"}, {"order", "3"}};
 
 /// One column is traced and stands for the others: points and factorizations are those of two, however many
 /// there are.
 TEST(EqualParts, CostWhatOneOfThemCosts) {
-  const RecordedTrace two = trace_of(columns(2, 0.05, true));
+  const RecordedTrace two = trace_of(columns(2, 0.05, true), usual);
   for (const Eigen::Index count : {3, 6, 12}) {
-    const RecordedTrace many = trace_of(columns(count, 0.05, true));
+    const RecordedTrace many = trace_of(columns(count, 0.05, true), usual);
     EXPECT_EQ(many.result.n_modes, 2 * count);
     EXPECT_EQ(many.result.n_available, 2 * count);
     EXPECT_EQ(many.result.n_independent, 2 * count);
@@ -192,18 +183,19 @@ TEST(EqualParts, CostWhatOneOfThemCosts) {
 /// equal modes are independent.
 TEST(EqualParts, HaveShapesOfTheWhole) {
   constexpr Eigen::Index count = 3;
-  const EqualParts c = columns(count, 0.05, true);
-  const RecordedTrace found = trace_of(c);
+  const EqualParts parts = columns(count, 0.05, true);
+  const auto& [M, C, K, A] = parts.matrices;
+  const RecordedTrace found = trace_of(parts, usual);
   ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
   for (std::size_t node = 0; node < found.nodes.size(); ++node) {
-    const Matrix K = c.K[0] + found.nodes[node].p * c.K[1];
+    const Matrix stiffness = K[0] + found.nodes[node].p * K[1];
     const auto& modes = found.modes[node];
     ASSERT_EQ(modes.size(), static_cast<std::size_t>(2 * count));
     ComplexMatrix shapes(2 * count, 2 * count);
     for (const ModeState& mode : modes) {
       const ComplexVector v = mode.shape.normalized();
-      const ComplexVector residual = mode.s * (mode.s * (c.M[0] * v) + c.C[0] * v) + K * v;
-      EXPECT_LT(residual.norm(), 1e-12 * K.norm());
+      const ComplexVector residual = mode.s * (mode.s * (M[0] * v) + C[0] * v) + stiffness * v;
+      EXPECT_LT(residual.norm(), 1e-12 * stiffness.norm());
       shapes.col(mode.mode) = v;
     }
     EXPECT_GT(Eigen::JacobiSVD<ComplexMatrix>(shapes).singularValues().minCoeff(), 1e-2);
@@ -212,7 +204,8 @@ TEST(EqualParts, HaveShapesOfTheWhole) {
 
 /// Of six modes of three columns four are followed: the three equal first ones, and one of the second.
 TEST(EqualParts, AreFollowedAsFarAsAskedFor) {
-  const RecordedTrace found = trace_of(columns(3, 0.05, false), "modes = 4\n");
+  const RecordedTrace found =
+      trace_of(columns(3, 0.05, false), {{"tolerance", "1e-8"}, {"order", "3"}, {"modes", "4"}});
   ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
   EXPECT_EQ(found.result.n_modes, 4);
   EXPECT_EQ(found.result.n_columns, 4);
@@ -291,9 +284,6 @@ RecordedTrace mass_on_equal_springs(const std::string& from, const std::string& 
 drag = 1.0
 [trace]
 parameter = "drag"
-)"
-                                   "tolerance = " +
-                                   tolerance + "\nfrom = " + from + "\nto = " + to + R"(
 [[point]]
 name = "disc"
 mass = 1
@@ -312,7 +302,8 @@ coordinate = "z"
 [[drag]]
 point = "disc"
 coefficient = "drag"
-)"));
+)",
+                                   {{"from", from}, {"to", to}, {"tolerance", tolerance}}));
 }
 
 /// The drag grows through critical damping, wherever the trace begins and however accurate it is.
@@ -378,41 +369,40 @@ coefficient = "drag"
   }
 }
 
+/// "[x, y, z]" of a place that is given in a part's own directions; the parts stand at thirds of a turn.
+std::string place(int part, double along, double across, double up) {
+  const double angle = 2.0 * M_PI * part / 3.0;
+  const double c = std::cos(angle), s = std::sin(angle);
+  return "[" + exact_text(c * along - s * across) + ", " + exact_text(s * along + c * across) + ", " +
+         exact_text(up) + "]";
+}
+
+const std::string rotating_frame =
+    "[parameters]\nomega = 1.0\n[trace]\nparameter = \"omega\"\ntolerance = 1e-9\n"
+    "[frame]\nangular_velocity = [0, 0, \"omega\"]\n";
+
 /// Masses on three springs each, at equal angles about the axis of a rotating frame: they move outwards as it
 /// turns faster, and nothing connects them. `stiffness` of the first spring of the last mass, 1000 N/m.
 std::string masses_in_a_rotating_frame(int count, const std::string& mass_of_last = "1",
                                        const std::string& stiffness_of_last = "1000") {
-  std::string scene = R"(
-[parameters]
-omega = 1.0
-[trace]
-parameter = "omega"
-from = 1
-to = 12
-tolerance = 1e-9
-[frame]
-angular_velocity = [0, 0, "omega"]
-)";
+  std::string scene = rotating_frame;
   for (int i = 0; i < count; ++i) {
-    const double angle = 2.0 * M_PI * i / 3.0;
-    const auto place = [angle](double along, double across, double up) {
-      const double c = std::cos(angle), s = std::sin(angle);
-      return "[" + exact_text(c * along - s * across) + ", " + exact_text(s * along + c * across) + ", " +
-             exact_text(up) + "]";
-    };
     const bool last = i + 1 == count;
     const std::string name = "mass " + std::to_string(i + 1);
     scene += "[[point]]\nname = \"" + name + "\"\nmass = " + (last ? mass_of_last : "1") +
-             "\nposition = " + place(1.0, 0.0, 0.0) + "\n";
+             "\nposition = " + place(i, 1.0, 0.0, 0.0) + "\n";
     const auto spring = [&](const std::string& from, const std::string& stiffness, double length) {
       scene += "[[spring]]\nfrom = " + from + "\nto = \"" + name + "\"\nstiffness = " + stiffness +
                "\nfree_length = " + exact_text(length) + "\n";
     };
-    spring(place(0.0, 0.0, 0.0), last ? '"' + stiffness_of_last + '"' : "1000", 1.0);
-    spring(place(0.5, 0.8, 0.1), "300", 0.9);
-    spring(place(0.7, -0.2, 1.0), "200", 1.0);
+    spring(place(i, 0.0, 0.0, 0.0), last ? '"' + stiffness_of_last + '"' : "1000", 1.0);
+    spring(place(i, 0.5, 0.8, 0.1), "300", 0.9);
+    spring(place(i, 0.7, -0.2, 1.0), "200", 1.0);
   }
   return scene;
+}
+RecordedTrace trace_in_a_rotating_frame(const std::string& scene, double from = 1.0, double to = 12.0) {
+  return record_trace(make_setting(scene, {{"from", exact_text(from)}, {"to", exact_text(to)}}));
 }
 
 /// The number of copies of every part of a trace.
@@ -424,34 +414,6 @@ std::vector<std::size_t> copies_in(const RecordedTrace& trace) {
   return copies;
 }
 
-/// The equilibrium moves by a tenth of the length, and the eigenvalues are those of one mass, three times.
-TEST(EqualPartsOfAScene, ThatMovesAreTracedOnce) {
-  const RecordedTrace one = record_trace(make_setting(masses_in_a_rotating_frame(1)));
-  const RecordedTrace three = record_trace(make_setting(masses_in_a_rotating_frame(3)));
-  ASSERT_EQ(one.result.status, TraceStatus::completed) << one.result.message;
-  ASSERT_EQ(three.result.status, TraceStatus::completed) << three.result.message;
-  EXPECT_GT((one.nodes.back().path.x.col(0) - one.nodes.front().path.x.col(0)).norm(), 0.05);
-  EXPECT_EQ(copies_in(three), (std::vector<std::size_t>{2}));
-  EXPECT_EQ(three.result.n_columns, 9);
-  EXPECT_EQ(three.result.certified_steps, three.result.mode_steps);
-  for (int i = 1; i < 20; ++i) {
-    const double omega = 1.0 + 11.0 * i / 20.0;
-    const ComplexVector expected = one.eigenvalues_at(omega);
-    const ComplexVector found = three.eigenvalues_at(omega);
-    for (Eigen::Index mode = 0; mode < 9; ++mode)
-      EXPECT_LT(std::abs(found[mode] - expected[mode / 3]), 2e-9 * std::abs(expected[mode / 3]));
-  }
-}
-
-/// Mistuned by 1e-10 the masses are parts of their own, and the trace passes as well.
-TEST(EqualPartsOfAScene, ThatMovesAreNoCopiesWhereTheyAreMistuned) {
-  const RecordedTrace found = record_trace(make_setting(masses_in_a_rotating_frame(3, "1.0000000001")));
-  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
-  EXPECT_EQ(copies_in(found), (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(found.result.n_columns, 9);
-  EXPECT_TRUE(found.result.events.empty());
-}
-
 std::vector<Complex> modes_at(const RecordedTrace& trace, double p) {
   const ComplexVector s = trace.eigenvalues_at(p);
   return {s.begin(), s.end()};
@@ -461,9 +423,9 @@ std::vector<Complex> modes_at(const RecordedTrace& trace, double p) {
 /// masses without it remain copies.
 TEST(EqualPartsOfAScene, ThatMovesAreLookedAtWhereAnExpressionHasABump) {
   const std::string bump = "1000 * (1 + 0.01 * exp(-((omega - 7.77) / 0.01)^2))";
-  const RecordedTrace one = record_trace(make_setting(masses_in_a_rotating_frame(1)));
-  const RecordedTrace other = record_trace(make_setting(masses_in_a_rotating_frame(1, "1", bump)));
-  const RecordedTrace found = record_trace(make_setting(masses_in_a_rotating_frame(3, "1", bump)));
+  const RecordedTrace one = trace_in_a_rotating_frame(masses_in_a_rotating_frame(1));
+  const RecordedTrace other = trace_in_a_rotating_frame(masses_in_a_rotating_frame(1, "1", bump));
+  const RecordedTrace found = trace_in_a_rotating_frame(masses_in_a_rotating_frame(3, "1", bump));
   ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
   EXPECT_EQ(copies_in(found), (std::vector<std::size_t>{0, 1}));
   for (const double omega : {3.0, 7.765, 7.77, 7.775, 11.0}) {
@@ -479,7 +441,7 @@ TEST(EqualPartsOfAScene, ThatMovesAreLookedAtWhereAnExpressionHasABump) {
 TEST(EqualPartsOfAScene, ThatMovesAreTestedAtEveryPoint) {
   std::string scene = masses_in_a_rotating_frame(3, "1", "k");
   scene.replace(scene.find("omega = 1.0"), 11, "omega = 1.0\nk = 1000.0");
-  const Setting setting = make_setting(scene);
+  const Setting setting = make_setting(scene, {{"from", "1"}, {"to", "12"}});
   PathProblem problem = setting.problem();
   problem.parts = scene_at_start(problem, setting.options).parts;
   ASSERT_TRUE(problem.parts);
@@ -497,61 +459,79 @@ TEST(EqualPartsOfAScene, ThatMovesAreTestedAtEveryPoint) {
 
 /// Masses on rods that hang from a hub in a rotating frame and rise as it turns faster. Nothing connects
 /// them. `stiffness_of_last`: of the spring of the last mass, 20 N/m.
-std::string pendulums_in_a_rotating_frame(int count, double from, double to,
-                                          const std::string& stiffness_of_last = "20") {
-  std::string scene =
-      "[parameters]\nomega = 1.0\n[trace]\nparameter = \"omega\"\ntolerance = 1e-9\nfrom = " +
-      exact_text(from) + "\nto = " + exact_text(to) +
-      "\n[frame]\nangular_velocity = [0, 0, \"omega\"]\n[gravity]\nacceleration = [0, 0, -9.81]\n";
+std::string pendulums_in_a_rotating_frame(int count, const std::string& stiffness_of_last = "20") {
+  std::string scene = rotating_frame + "[gravity]\nacceleration = [0, 0, -9.81]\n";
   for (int i = 0; i < count; ++i) {
-    const double angle = 2.0 * M_PI * i / 3.0;
-    const auto place = [angle](double along, double across, double up) {
-      const double c = std::cos(angle), s = std::sin(angle);
-      return "[" + exact_text(c * along - s * across) + ", " + exact_text(s * along + c * across) + ", " +
-             exact_text(up) + "]";
-    };
     const std::string name = "mass " + std::to_string(i + 1);
-    scene += "[[point]]\nname = \"" + name + "\"\nmass = 2\nposition = " + place(0.93, -0.21, -0.45) + "\n";
-    scene += "[[rod]]\nfrom = " + place(0.3, 0.0, 0.0) + "\nto = \"" + name + "\"\nlength = 0.8\n";
-    scene += "[[spring]]\nfrom = " + place(0.5, 0.4, 0.1) + "\nto = \"" + name +
-             "\"\nfree_length = 0.6\nstiffness = " + (i + 1 == count ? stiffness_of_last : "20") + "\n";
-    scene += "[[damper]]\nfrom = " + place(0.5, -0.4, 0.1) + "\nto = \"" + name + "\"\ncoefficient = 0.3\n";
+    scene += "[[point]]\nname = \"" + name + "\"\nmass = 2\nposition = " + place(i, 0.93, -0.21, -0.45) +
+             "\n[[rod]]\nfrom = " + place(i, 0.3, 0.0, 0.0) + "\nto = \"" + name +
+             "\"\nlength = 0.8\n[[spring]]\nfrom = " + place(i, 0.5, 0.4, 0.1) + "\nto = \"" + name +
+             "\"\nfree_length = 0.6\nstiffness = " + (i + 1 == count ? stiffness_of_last : "20") +
+             "\n[[damper]]\nfrom = " + place(i, 0.5, -0.4, 0.1) + "\nto = \"" + name +
+             "\"\ncoefficient = 0.3\n";
   }
   return scene;
 }
 
-/// The rods turn, and with them the space of the motions that they allow; the eigenvalues are those of one
-/// mass, three times.
-TEST(EqualPartsOfAScene, WhoseTangentSpaceTurnsAreTracedOnce) {
-  for (const auto& [from, to] : {std::pair{2.0, 9.0}, std::pair{9.0, 2.0}}) {
-    SCOPED_TRACE(from);
-    const RecordedTrace one = record_trace(make_setting(pendulums_in_a_rotating_frame(1, from, to)));
-    const RecordedTrace three = record_trace(make_setting(pendulums_in_a_rotating_frame(3, from, to)));
-    ASSERT_EQ(one.result.status, TraceStatus::completed) << one.result.message;
-    ASSERT_EQ(three.result.status, TraceStatus::completed) << three.result.message;
-    const Vector first = one.nodes.front().path.x.col(0), last = one.nodes.back().path.x.col(0);
-    EXPECT_GT((last - first).norm(), 0.3) << "of a rod of 0.8 m";
-    EXPECT_EQ(copies_in(three), (std::vector<std::size_t>{2}));
-    EXPECT_EQ(three.result.n_columns, 6);
-    EXPECT_EQ(three.result.certified_steps, three.result.mode_steps);
-    for (int i = 1; i < 20; ++i) {
-      const double omega = 2.0 + 7.0 * i / 20.0;
-      const ComplexVector expected = one.eigenvalues_at(omega);
-      const ComplexVector found = three.eigenvalues_at(omega);
-      for (Eigen::Index mode = 0; mode < 6; ++mode)
-        EXPECT_LT(std::abs(found[mode] - expected[mode / 3]), 2e-9 * std::abs(expected[mode / 3]));
-    }
+/// One part, three of them, three of which one differs by 1e-10, and how far one moves.
+struct MovingParts {
+  std::string one, three, mistuned;
+  double from, to, moved;
+};
+class PartsThatMove : public testing::TestWithParam<MovingParts> {};
+
+/// The eigenvalues are those of one, three times.
+TEST_P(PartsThatMove, AreTracedOnce) {
+  const auto& [scene_of_one, scene_of_three, mistuned, from, to, moved] = GetParam();
+  const RecordedTrace one = trace_in_a_rotating_frame(scene_of_one, from, to);
+  const RecordedTrace three = trace_in_a_rotating_frame(scene_of_three, from, to);
+  ASSERT_EQ(one.result.status, TraceStatus::completed) << one.result.message;
+  ASSERT_EQ(three.result.status, TraceStatus::completed) << three.result.message;
+  EXPECT_GT((one.nodes.back().path.x.col(0) - one.nodes.front().path.x.col(0)).norm(), moved);
+  EXPECT_EQ(copies_in(three), (std::vector<std::size_t>{2}));
+  EXPECT_EQ(three.result.n_columns, 3 * one.result.n_columns);
+  EXPECT_EQ(three.result.certified_steps, three.result.mode_steps);
+  for (int i = 1; i < 20; ++i) {
+    const double omega = from + (to - from) * i / 20.0;
+    const ComplexVector expected = one.eigenvalues_at(omega);
+    const ComplexVector found = three.eigenvalues_at(omega);
+    for (Eigen::Index mode = 0; mode < found.size(); ++mode)
+      EXPECT_LT(std::abs(found[mode] - expected[mode / 3]), 2e-9 * std::abs(expected[mode / 3]));
   }
 }
 
-/// One spring that is stiffer by 1e-10 makes its mass a part of its own.
-TEST(EqualPartsOfAScene, WhoseTangentSpaceTurnsAreNoCopiesWhereTheyAreMistuned) {
-  const RecordedTrace found =
-      record_trace(make_setting(pendulums_in_a_rotating_frame(3, 2.0, 9.0, "20.000000002")));
+/// The last is a part of its own.
+TEST_P(PartsThatMove, AreNoCopiesWhereTheyAreMistuned) {
+  const RecordedTrace found = trace_in_a_rotating_frame(GetParam().mistuned, GetParam().from, GetParam().to);
   ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
   EXPECT_EQ(copies_in(found), (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(found.result.n_columns, 6);
   EXPECT_TRUE(found.result.events.empty());
+}
+
+/// Equilibria that move, by a tenth of the length, and rods that turn, and with them the space of the motions
+/// that they allow.
+INSTANTIATE_TEST_SUITE_P(
+    InARotatingFrame, PartsThatMove,
+    testing::Values(MovingParts{masses_in_a_rotating_frame(1), masses_in_a_rotating_frame(3),
+                                masses_in_a_rotating_frame(3, "1.0000000001"), 1.0, 12.0, 0.05},
+                    MovingParts{pendulums_in_a_rotating_frame(1), pendulums_in_a_rotating_frame(3),
+                                pendulums_in_a_rotating_frame(3, "20.000000002"), 2.0, 9.0, 0.3},
+                    MovingParts{pendulums_in_a_rotating_frame(1), pendulums_in_a_rotating_frame(3),
+                                pendulums_in_a_rotating_frame(3, "20.000000002"), 9.0, 2.0, 0.3}),
+    [](const auto& test) {
+      return std::string(std::array{"Masses", "PendulumsUp", "PendulumsDown"}[test.index]);
+    });
+
+/// Through critical damping, where pairs become real modes, and with an equilibrium that moves.
+TEST(EqualParts, ResumedTracesAreTheSame) {
+  const auto difference = [](const std::string& scene, const OptionTexts& options) {
+    const Setting setting = make_setting(scene, options);
+    return first_resumed_difference(*setting.model, setting.options, 8);
+  };
+  const EqualParts three = overdamped(3);
+  for (const char* modes : {"all", "2"})
+    EXPECT_EQ(difference(family_scene(three.matrices, three.from, three.to), {{"modes", modes}}), "");
+  EXPECT_EQ(difference(masses_in_a_rotating_frame(2), {{"from", "1"}, {"to", "12"}}), "");
 }
 
 /// The drag becomes a drive: both modes flutter at once, and say in which direction.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::event_record_test {
@@ -118,24 +119,16 @@ TEST(KeepSensitivities, AreThoseOfTheClosedFormInEitherChart) {
 
 /// sin(angle) = p / unit has its fold at p = unit, whatever mass and length are.
 TEST(KeepFoldSensitivities, AreThoseOfThePlaceOfTheFold) {
-  const Setting setting = pushed_pendulum({.mass = 3.0, .length = 0.7, .unit = 2.0, .to = 2.4});
-  const PathProblem problem = setting.problem();
-  RunCounts counts;
-  PathFrame frame{PathRange{problem.traced, 0.0, 2.4}};
-  frame.largest_position = 0.7;
-  const PointSolver points(problem, frame, counts);
-  PathNode node = differentiate_point(problem, point_from_guess(problem, 1.9, counts), counts).value();
-  node.tracks.clear();
-  frame.plane = plane_along(node.path, problem.traced, frame.scales(), 1.0);
-  reparametrize(node, *frame.plane, problem.traced);
-  for (int i = 0; i < 12; ++i) node = points.follow({node, {}}, fold_distance(frame, node))->node;
+  OnPath at(pushed_pendulum({.mass = 3.0, .length = 0.7, .unit = 2.0, .to = 2.4}), 1.9);
+  at.take_plane();
+  const PathNode node = at.on_fold();
   ASSERT_NEAR(node.p, 2.0, 1e-12);
   Event event;
-  keep_fold_sensitivities(problem, node, event, counts);
-  EXPECT_NEAR(event.shift[setting.parameter("unit")], 1.0, 1e-8);
-  EXPECT_NEAR(event.shift[setting.parameter("mass")], 0.0, 1e-8);
-  EXPECT_NEAR(event.shift[setting.parameter("length")], 0.0, 1e-8);
-  EXPECT_TRUE(std::isnan(event.shift[setting.parameter("p")]));
+  keep_fold_sensitivities(at.problem, node, event, at.counts);
+  EXPECT_NEAR(event.shift[at.setting.parameter("unit")], 1.0, 1e-8);
+  EXPECT_NEAR(event.shift[at.setting.parameter("mass")], 0.0, 1e-8);
+  EXPECT_NEAR(event.shift[at.setting.parameter("length")], 0.0, 1e-8);
+  EXPECT_TRUE(std::isnan(event.shift[at.setting.parameter("p")]));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "continuation/planted_points.hpp"
+#include "continuation/meeting_families.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
@@ -13,12 +13,6 @@ namespace eigentrail::test::find_partners_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of series of modes some tenths apart, of order one
-
-/// Frequencies 2 + p, 2.6 - p, 5 and 9: the first two cross at p = 0.3.
-Planted crossing() {
-  return Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 0.0}, {9.0, 0.0}}));
-}
-const std::vector<Complex> at_zero{2.0 * j, 2.6 * j, 5.0 * j, 9.0 * j};
 
 TEST(FindPartners, IsWhomAModeMeetsWithinTheReach) {
   Planted family = crossing();
@@ -104,17 +98,6 @@ TEST(FindPartners, ConjugateFarAwayIsNotTheNearest) {
   EXPECT_FALSE(partners[0].conjugate);
   EXPECT_EQ(partners[0].track, 1U);
 }
-
-/// s^2 + 2 d s + 1 - p: a pair that meets the real axis at p = 1 - d^2, beside a mode far away.
-Planted towards_the_axis(double d) {
-  return Planted({{Matrix::Identity(2, 2)},
-                  {Matrix{{2.0 * d, 0.0}, {0.0, 0.2}}},
-                  {Matrix{{1.0, 0.0}, {0.0, 36.01}}, Matrix{{-1.0, 0.0}, {0.0, 0.0}}}});
-}
-Complex upper(double d, double p) {
-  return {-d, std::sqrt(1.0 - p - d * d)};
-}
-const Complex far_away(-0.1, 6.0);
 
 TEST(FindPartners, IsAModesOwnConjugateBeforeTheRealAxis) {
   Planted family = towards_the_axis(0.5);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::landing_test {
@@ -193,38 +194,22 @@ TEST(Land, CountsItsWorkAsThatOfEvents) {
 }
 
 /// sin(angle) = p with a fold at p = 1, followed on planes from `begin`.
-struct Pendulum {
-  Pendulum(double begin, double range_begin, double range_end)
-      : setting(pushed_pendulum({})),
-        problem(setting.problem()),
-        frame{PathRange{problem.traced, range_begin, range_end}},
-        points(problem, frame, counts) {
-    origin.node = differentiate_point(problem, point_from_guess(problem, begin, counts), counts).value();
-    // Behind the fold the pair is real: not the same track.
-    origin.node.tracks.clear();
-    frame.largest_position = 1.0;
-    turn();
-  }
-  void turn() {
-    frame.plane = plane_along(origin.node.path, problem.traced, frame.scales(), 1.0);
-    reparametrize(origin.node, *frame.plane, problem.traced);
+struct Pendulum : OnPath {
+  explicit Pendulum(double begin, double range_end = 1.2)
+      : OnPath(pushed_pendulum({.to = range_end}), begin) {
+    take_plane();
   }
   std::optional<LandedStep> land(double h) {
+    StepOrigin origin{node};
     StepSolver solver(points, origin, reach);
     AttemptedStep attempted = solver.attempt(h);
     if (!attempted.step) return std::nullopt;
     return eigentrail::land(solver, std::move(*attempted.step), false);
   }
-  Setting setting;
-  PathProblem problem;
-  RunCounts counts;
-  PathFrame frame;
-  PointSolver points;
-  StepOrigin origin;
 };
 
 TEST(Land, EndsAStepOnAFold) {
-  Pendulum pendulum(0.97, 0.0, 1.2);
+  Pendulum pendulum(0.97);
   const auto landed = pendulum.land(0.4);
   ASSERT_TRUE(landed);
   EXPECT_LT(landed->step.h, 0.4);
@@ -234,7 +219,7 @@ TEST(Land, EndsAStepOnAFold) {
 }
 
 TEST(Land, EndsAStepOnTheEndOfTheRangeBeforeTheFold) {
-  Pendulum pendulum(0.9, 0.0, 0.95);
+  Pendulum pendulum(0.9, 0.95);
   const auto landed = pendulum.land(0.3);
   ASSERT_TRUE(landed);
   EXPECT_EQ(landed->step.right.p, 0.95);
@@ -243,12 +228,12 @@ TEST(Land, EndsAStepOnTheEndOfTheRangeBeforeTheFold) {
 
 /// Behind the fold the path goes back to where the range begins.
 TEST(Land, EndsAStepWhereTheRangeBegins) {
-  Pendulum pendulum(0.97, 0.0, 1.2);
+  Pendulum pendulum(0.97);
   auto landed = pendulum.land(0.4);
   ASSERT_TRUE(landed);
-  pendulum.origin.node = landed->step.right;
+  pendulum.node = landed->step.right;
   pendulum.frame.range.from = 0.95;
-  pendulum.turn();
+  pendulum.take_plane();
   landed = pendulum.land(0.5);
   ASSERT_TRUE(landed);
   EXPECT_EQ(landed->step.right.p, 0.95);

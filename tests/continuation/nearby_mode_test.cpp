@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::nearby_mode_test {
@@ -138,15 +139,10 @@ TEST(LookAtMode, GivesASmallRealPartToItsOwnDigits) {
 }
 
 TEST(LookAtMode, FindsNothingWhereThereIsNoEquilibrium) {
-  const Setting setting = pushed_pendulum({});
-  const PathProblem problem = setting.problem();
-  RunCounts counts;
-  PathFrame frame{PathRange{problem.traced, 0.0, 1.2}};
-  const PointSolver solver(problem, frame, counts);
-  const PathNode left = differentiate_point(problem, point_from_guess(problem, 0.9, counts), counts).value();
-  const Complex s = left.tracks[0].roots[0];
-  EXPECT_TRUE(look_at_mode(solver, left, 0, s, 0.01, ModeFunction::eigenvalue));
-  EXPECT_FALSE(look_at_mode(solver, left, 0, s, 0.2, ModeFunction::eigenvalue));
+  const OnPath at(pushed_pendulum({}), 0.9, OnPath::With::modes);
+  const Complex s = at.node.tracks[0].roots[0];
+  EXPECT_TRUE(look_at_mode(at.points, at.node, 0, s, 0.01, ModeFunction::eigenvalue));
+  EXPECT_FALSE(look_at_mode(at.points, at.node, 0, s, 0.2, ModeFunction::eigenvalue));
 }
 
 }  // namespace

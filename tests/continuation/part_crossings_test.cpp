@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/modes/spectrum.hpp"
+#include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test::part_crossings_test {
@@ -90,21 +90,18 @@ struct Oscillator {
   double c, w, v;
 };
 Setting oscillators(const std::vector<Oscillator>& all, const Matrix& turn = {}) {
-  const Eigen::IOFormat as_list(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", ", ", "[", "]", "[", "]");
-  const auto text = [&](const auto& entry) {
+  const auto matrix = [&](const auto& entry) {
     Vector diagonal(static_cast<Eigen::Index>(all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) diagonal[static_cast<Eigen::Index>(i)] = entry(all[i]);
     const Matrix A = diagonal.asDiagonal();
-    std::ostringstream list;
-    list << Matrix(turn.size() > 0 ? Matrix(turn.transpose() * A * turn) : A).format(as_list);
-    return list.str();
+    return turn.size() > 0 ? Matrix(turn.transpose() * A * turn) : A;
   };
-  return make_setting("[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [" +
-                      text([](const Oscillator&) { return 1.0; }) + "]\nC = [" +
-                      text([](const Oscillator& o) { return o.c; }) + "]\nK = [" +
-                      text([](const Oscillator& o) { return o.w * o.w; }) + ", " +
-                      text([](const Oscillator& o) { return 2.0 * o.w * o.v; }) + ", " +
-                      text([](const Oscillator& o) { return o.v * o.v; }) + "]\n");
+  return make_setting(family_scene({{matrix([](const Oscillator&) { return 1.0; })},
+                                    {matrix([](const Oscillator& o) { return o.c; })},
+                                    {matrix([](const Oscillator& o) { return o.w * o.w; }),
+                                     matrix([](const Oscillator& o) { return 2.0 * o.w * o.v; }),
+                                     matrix([](const Oscillator& o) { return o.v * o.v; })}},
+                                   -1.0, 1.0));
 }
 
 TEST(FindPartCrossings, GivesPlaceAndEigenvalueInBothDirections) {

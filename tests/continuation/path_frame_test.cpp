@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/planted_search.hpp"
+#include "continuation/on_path.hpp"
 
 namespace eigentrail::test::path_frame_test {
 namespace {
@@ -137,19 +137,8 @@ TEST(PathFrame, KnowsTheBranchPointOnItsBridge) {
 }
 
 /// A pendulum with sin(angle) = p: the series in p converge up to the fold at p = 1.
-struct Pendulum {
-  explicit Pendulum(double p)
-      : setting(pushed_pendulum({})),
-        problem(setting.problem()),
-        frame{PathRange{problem.traced, 0.0, 1.2}},
-        node(differentiate_point(problem, point_from_guess(problem, p, counts), counts).value()) {
-    frame.largest_position = 1.0;
-  }
-  Setting setting;
-  PathProblem problem;
-  PathFrame frame;
-  RunCounts counts;
-  PathNode node;
+struct Pendulum : OnPath {
+  explicit Pendulum(double p) : OnPath(pushed_pendulum({}), p, With::modes) {}
 };
 
 TEST(TurnToPlane, IsDoneBeforeAFoldAndNotFarFromIt) {
@@ -186,15 +175,13 @@ TEST(RenewPlane, FollowsThePathOnceItIsSlantedEnough) {
   Pendulum pendulum(0.5);
   EXPECT_FALSE(renew_plane(pendulum.frame, pendulum.node)) << "there is no plane to renew";
   const int traced = pendulum.problem.traced;
-  pendulum.frame.plane = plane_along(pendulum.node.path, traced, pendulum.frame.scales(), 1.0);
-  reparametrize(pendulum.node, *pendulum.frame.plane, traced);
-  const PointSolver solver(pendulum.problem, pendulum.frame, pendulum.counts);
+  pendulum.take_plane();
   int renewed = 0;
   PathNode node = pendulum.node;
   node.tracks.clear();  // behind the fold the pair is real
   // Around half of the circle the tangent turns by 120 degrees.
   for (int i = 0; i < 16; ++i) {
-    auto there = solver.follow(all_tracks(node), 0.1);
+    auto there = pendulum.points.follow(all_tracks(node), 0.1);
     ASSERT_TRUE(there) << i;
     node = std::move(there->node);
     const double before = slant(*pendulum.frame.plane, node.path, traced, pendulum.frame.scales());

@@ -1,7 +1,6 @@
 #include "continuation/planted_points.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
 #include "eigentrail/modes/invariants.hpp"
@@ -11,26 +10,8 @@
 namespace eigentrail::test {
 namespace {
 
-void write(std::ostream& text, const std::string& key, const std::vector<Matrix>& coefficients) {
-  if (coefficients.empty()) return;
-  const Eigen::IOFormat as_list(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", ", ", "[", "]", "[", "]");
-  text << key << " = [";
-  for (const Matrix& coefficient : coefficients) text << coefficient.format(as_list) << ", ";
-  text << "]\n";
-}
-
-std::string scene_of(const PlantedMatrices& matrices, int order) {
-  std::ostringstream text;
-  text << "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\norder = " << order << "\n[matrix_family]\n";
-  write(text, "M", matrices.M);
-  write(text, "C", matrices.C);
-  write(text, "K", matrices.K);
-  write(text, "A", matrices.A);
-  return text.str();
-}
-
 /// A scene must use its parameter. The term zero times p does this.
-PlantedMatrices with_variable(PlantedMatrices matrices) {
+FamilyMatrices with_variable(FamilyMatrices matrices) {
   if (matrices.K.size() == 1)
     matrices.K.emplace_back(Matrix::Zero(matrices.K[0].rows(), matrices.K[0].cols()));
   return matrices;
@@ -51,8 +32,10 @@ ComplexVector in_chart(const Together& track) {
 
 }  // namespace
 
-Planted::Planted(const PlantedMatrices& matrices, int order)
-    : setting_(make_setting(scene_of(with_variable(matrices), order))), problem_(setting_.problem()) {
+Planted::Planted(const FamilyMatrices& matrices, int order)
+    : setting_(
+          make_setting(family_scene(with_variable(matrices), -1.0, 1.0), {{"order", std::to_string(order)}})),
+      problem_(setting_.problem()) {
   problem_.s_ref = 1e-3;
   problem_.s_max = 1e6;
 }

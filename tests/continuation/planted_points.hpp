@@ -6,16 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
 
 constexpr Complex j{0.0, 1.0};
-
-/// Coefficients by powers of the parameter p. C may be empty, and A: no constraints.
-struct PlantedMatrices {
-  std::vector<Matrix> M, C, K, A = {};
-};
 
 /// Eigenvalues that are followed together, in the order that the track shall have them. They make a real
 /// block when they are closed under conjugation. All are eigenvalues s, also of a block in the other chart.
@@ -27,7 +23,7 @@ struct Together {
 /// A family of matrices, and the problem of following its modes along p.
 class Planted {
  public:
-  explicit Planted(const PlantedMatrices& matrices, int order = 4);
+  explicit Planted(const FamilyMatrices& matrices, int order = 4);
 
   /// Undamped, of unit mass: s = j w with w an eigenvalue of W(p), coefficients by powers of p. K = W^2.
   static Planted frequencies(const std::vector<Matrix>& W, int order = 4);

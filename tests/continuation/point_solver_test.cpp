@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::point_solver_test {
@@ -102,28 +103,15 @@ TEST(Follow, FindsThePointOfTheClosedForm) {
 }
 
 /// sin(angle) = p has no solution for p > 1, and the path to p = 1 is not a function of p there.
-struct Pendulum {
-  explicit Pendulum(double p)
-      : setting(pushed_pendulum({})),
-        problem(setting.problem()),
-        frame{PathRange{problem.traced, 0.0, 1.2}},
-        solver(problem, frame, counts),
-        node(differentiate_point(problem, point_from_guess(problem, p, counts), counts).value()) {
-    frame.largest_position = 1.0;
-  }
-  Setting setting;
-  PathProblem problem;
-  PathFrame frame;
-  RunCounts counts;
-  PointSolver solver;
-  PathNode node;
+struct Pendulum : OnPath {
+  explicit Pendulum(double p) : OnPath(pushed_pendulum({}), p, With::modes) {}
 };
 
 TEST(Follow, FindsNothingBeyondAFold) {
   Pendulum pendulum(0.9);
-  EXPECT_TRUE(pendulum.solver.follow(all_tracks(pendulum.node), 0.05));
-  EXPECT_FALSE(pendulum.solver.follow(all_tracks(pendulum.node), 0.2));
-  const PathPoint beyond = pendulum.solver.reduce(pendulum.node, 0.2);
+  EXPECT_TRUE(pendulum.points.follow(all_tracks(pendulum.node), 0.05));
+  EXPECT_FALSE(pendulum.points.follow(all_tracks(pendulum.node), 0.2));
+  const PathPoint beyond = pendulum.points.reduce(pendulum.node, 0.2);
   EXPECT_EQ(beyond.status, PointStatus::no_equilibrium);
   EXPECT_FALSE(beyond.message.empty());
 }
@@ -131,14 +119,12 @@ TEST(Follow, FindsNothingBeyondAFold) {
 /// In the distance across a plane the same solver goes around the fold.
 TEST(Follow, GoesAroundAFoldOnPlanes) {
   Pendulum pendulum(0.97);
-  const int traced = pendulum.problem.traced;
-  pendulum.frame.plane = plane_along(pendulum.node.path, traced, pendulum.frame.scales(), 1.0);
-  reparametrize(pendulum.node, *pendulum.frame.plane, traced);
+  pendulum.take_plane();
   const double begin = pendulum.frame.coordinate(pendulum.node);
   bool has_passed = false;
   for (const double h : {0.1, 0.2, 0.3, 0.4}) {
     // Without modes: behind the fold the pair is real.
-    const auto there = pendulum.solver.follow({pendulum.node, {}}, h);
+    const auto there = pendulum.points.follow({pendulum.node, {}}, h);
     ASSERT_TRUE(there) << h;
     EXPECT_NEAR(pendulum.frame.coordinate(there->node) - begin, h, rounding);
     // On the circle, and in balance there: x = p.
@@ -152,7 +138,7 @@ TEST(Follow, GoesAroundAFoldOnPlanes) {
 
 TEST(Reduce, GivesThePencilWithoutModes) {
   Pendulum pendulum(0.5);
-  const PathPoint there = pendulum.solver.reduce(pendulum.node, 0.1);
+  const PathPoint there = pendulum.points.reduce(pendulum.node, 0.1);
   ASSERT_EQ(there.status, PointStatus::computed);
   EXPECT_TRUE(there.pairs.empty());
   EXPECT_NEAR(there.equilibrium.x[0], 0.6, rounding);
@@ -163,17 +149,17 @@ TEST(Reduce, GivesThePencilWithoutModes) {
 /// On a bridge the equilibrium is the interpolant's, not that of the series.
 TEST(Predict, TakesTheEquilibriumFromABridge) {
   Pendulum pendulum(0.5);
-  const auto side = [&](double h) { return pendulum.solver.follow(all_tracks(pendulum.node), h)->node.path; };
+  const auto side = [&](double h) { return pendulum.points.follow(all_tracks(pendulum.node), h)->node.path; };
   const Path left = side(0.1);
   const Path right = side(0.2);
   pendulum.frame.bridge = Bridge(0.6, 0.7, left, right, pendulum.problem.traced, false);
   pendulum.frame.branch_point = {0.64, 0.64};
-  const Prediction on_it = pendulum.solver.predict(all_tracks(pendulum.node), 0.15);
+  const Prediction on_it = pendulum.points.predict(all_tracks(pendulum.node), 0.15);
   ASSERT_TRUE(on_it.known);
   EXPECT_NEAR(on_it.known->x(0, 0), 0.65, 1e-9);
   EXPECT_EQ(on_it.known->x.cols(), pendulum.problem.order + 2);
-  EXPECT_FALSE(pendulum.solver.predict(all_tracks(pendulum.node), 0.05).known);
-  const Prediction at_branch_point = pendulum.solver.predict(all_tracks(pendulum.node), 0.14);
+  EXPECT_FALSE(pendulum.points.predict(all_tracks(pendulum.node), 0.05).known);
+  const Prediction at_branch_point = pendulum.points.predict(all_tracks(pendulum.node), 0.14);
   EXPECT_EQ(at_branch_point.p, 0.64);
 }
 

@@ -5,48 +5,14 @@
 
 #include <cmath>
 
-#include "continuation/events/event_search.hpp"
-#include "continuation/step/step_solver.hpp"
-#include "eigentrail/continuation/path_point.hpp"
-#include "support/scenes.hpp"
+#include "continuation/on_path.hpp"
 
 namespace eigentrail::test::static_points_test {
 namespace {
 
 /// sin(angle) = p with a fold at p = 1, followed on planes.
-struct Pendulum {
-  explicit Pendulum(double p)
-      : setting(pushed_pendulum({})),
-        problem(setting.problem()),
-        frame{PathRange{problem.traced, 0.0, 1.2}},
-        points(problem, frame, counts),
-        log{events, frame.range, problem.thresholds},
-        search{points, setting.options, criteria, log, 3} {
-    node = differentiate_point(problem, point_from_guess(problem, p, counts), counts).value();
-    frame.largest_position = 1.0;
-    frame.plane = plane_along(node.path, problem.traced, frame.scales(), 1.0);
-    reparametrize(node, *frame.plane, problem.traced);
-  }
-  /// The point on the fold, by Newton's method on dp/dsigma.
-  PathNode on_fold() {
-    PathNode here = node;
-    here.tracks.clear();
-    for (int i = 0; i < 12; ++i) {
-      const double h = fold_distance(frame, here);
-      here = points.follow({here, {}}, h)->node;
-    }
-    return here;
-  }
-  Setting setting;
-  PathProblem problem;
-  RunCounts counts;
-  PathFrame frame;
-  PointSolver points;
-  std::vector<Criterion> criteria;
-  std::vector<Event> events;
-  EventLog log;
-  EventSearch search;
-  PathNode node;
+struct Pendulum : OnPath {
+  explicit Pendulum(double p) : OnPath(pushed_pendulum({}), p) { take_plane(); }
 };
 
 TEST(FindFold, RecordsThePlaceWhereThePathTurnsBack) {
@@ -56,7 +22,7 @@ TEST(FindFold, RecordsThePlaceWhereThePathTurnsBack) {
   ASSERT_EQ(found.events.size(), 1U);
   EXPECT_EQ(found.events[0].kind, EventKind::fold);
   EXPECT_NEAR(found.events[0].p, 1.0, 1e-12);
-  EXPECT_EQ(found.events[0].node, 3);
+  EXPECT_EQ(found.events[0].node, 4);
 }
 
 TEST(FindFold, FindsNothingElsewhere) {

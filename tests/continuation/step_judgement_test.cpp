@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::step_judgement_test {
@@ -163,18 +164,10 @@ TEST(MayStayUncertified, IsAShareOfTheRangeOfTheCoordinate) {
   EXPECT_FALSE(may_stay_uncertified(frame, 1.001 * uncertified_share));
 }
 
-/// A pendulum on a spring that stays vertical hangs straight for every stiffness, and tilted above m g / l.
+/// A pendulum on a spring hangs straight for every stiffness, and tilted above the critical one.
 struct SpringPendulum {
   explicit SpringPendulum(const std::string& position)
-      : setting(
-            make_setting("[parameters]\nk = 20.0\n[trace]\nparameter = \"k\"\nfrom = 20\nto = 30\n"
-                         "[gravity]\nacceleration = [0, 0, -9.81]\n[[point]]\nname = \"bob\"\nmass = 2.0\n"
-                         "position = " +
-                         position +
-                         "\n[[rod]]\nfrom = [0, 0, 0]\nto = \"bob\"\nlength = 1.5\n[[fixed]]\n"
-                         "point = \"bob\"\ncoordinate = \"y\"\n[[guided_spring]]\npoint = \"bob\"\n"
-                         "direction = [0, 0, 1]\nstiffness = \"k\"\n")),
-        problem(setting.problem()) {}
+      : setting(spring_pendulum(position, 20.0, 30.0)), problem(setting.problem()) {}
   PathNode at(double k) {
     PathNode node = differentiate_point(problem, point_from_guess(problem, k, counts), counts).value();
     for (Track& track : node.tracks) track.modes = track.arriving = {0};
@@ -185,12 +178,9 @@ struct SpringPendulum {
   PathProblem problem;
   RunCounts counts;
 };
-const std::string straight = "[0, 0, -1.5]";
-const std::string tilted = "[1.2, 0, -0.9]";
-
 TEST(Judge, FindsThatAnEquilibriumLiesOnAnotherPath) {
-  SpringPendulum on_this(tilted);
-  SpringPendulum on_other(straight);
+  SpringPendulum on_this(hanging_tilted);
+  SpringPendulum on_other(hanging_straight);
   PathFrame frame{PathRange{on_this.problem.traced, 20.0, 30.0}};
   const PathNode left = on_this.at(20.0);
   TraceOptions options = on_this.setting.options;
@@ -208,7 +198,7 @@ TEST(Judge, FindsThatAnEquilibriumLiesOnAnotherPath) {
 
 /// Straight for every stiffness: x moves by rounding only, which has no order.
 TEST(Judge, RoundingOfAnEquilibriumThatDoesNotMoveIsNoOtherPath) {
-  SpringPendulum hanging(straight);
+  SpringPendulum hanging(hanging_straight);
   PathFrame frame{PathRange{hanging.problem.traced, 20.0, 30.0}};
   const PathNode left = hanging.at(20.0);
   PathNode right = hanging.at(20.5);

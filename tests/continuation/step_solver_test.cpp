@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::step_solver_test {
@@ -74,17 +75,10 @@ TEST(Attempt, ReusesWhatWasComputedAtTheSameDistanceOnly) {
 }
 
 /// Steps of a pushed pendulum, whose equilibrium moves, from a point of its path.
-struct StepsOfAPendulum {
-  explicit StepsOfAPendulum(double p)
-      : origin{differentiate_point(problem, point_from_guess(problem, p, counts), counts).value()} {
+struct StepsOfAPendulum : OnPath {
+  explicit StepsOfAPendulum(double p) : OnPath(pushed_pendulum({}), p, With::modes), origin{node} {
     for (Track& track : origin.node.tracks) track.modes = track.arriving = {0};
   }
-
-  Setting setting = pushed_pendulum({});
-  PathProblem problem = setting.problem();
-  RunCounts counts;
-  PathFrame frame{PathRange{problem.traced, 0.0, 1.2}};
-  PointSolver points{problem, frame, counts};
   StepOrigin origin;
   StepSolver solver{points, origin, reach};
 };

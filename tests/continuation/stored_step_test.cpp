@@ -63,33 +63,37 @@ TEST(Certify, ClosesOnASmoothStep) {
   EXPECT_GT(counts.certificate_bases + counts.certificate_factorizations, 0U);
 }
 
-/// Two single modes exchanged on the right end: no ball contains both. Behind the first that fails the others
-/// are tested only if they count.
-TEST(Certify, DoesNotCloseBetweenDifferentModes) {
-  PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
-  const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
+/// Three single modes of which two arrive exchanged.
+struct Exchanged {
+  Exchanged(std::size_t one, std::size_t other) {
+    std::swap(step.right.tracks[one], step.right.tracks[other]);
+  }
+  PlantedSearch planted{Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}}))};
+  PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
   Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
-  std::swap(step.right.tracks[0], step.right.tracks[1]);
+};
+
+/// No ball contains both. Behind the first that fails the others are tested only if they count.
+TEST(Certify, DoesNotCloseBetweenDifferentModes) {
+  Exchanged first(0, 1);
   RunCounts counts;
   std::vector<TrackTest> tests = strict(3);
-  EXPECT_EQ(certify(planted.family.problem(), step, true, tests, counts),
+  EXPECT_EQ(certify(first.planted.family.problem(), first.step, true, tests, counts),
             (std::vector<bool>{false, false, true}));
-  EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts),
+  EXPECT_EQ(certify(first.planted.family.problem(), first.step, false, tests, counts),
             (std::vector<bool>{false, false, false}));
 }
 
 /// The same where the first two may pass by their shapes: the third is tested all the same.
 TEST(Certify, GoesOnBehindATrackThatMayFail) {
-  PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
-  const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
-  Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
-  std::swap(step.right.tracks[0], step.right.tracks[1]);
+  Exchanged first(0, 1);
   RunCounts counts;
   std::vector<TrackTest> tests{TrackTest::lenient, TrackTest::lenient, TrackTest::strict};
-  EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts),
+  EXPECT_EQ(certify(first.planted.family.problem(), first.step, false, tests, counts),
             (std::vector<bool>{false, false, true}));
   tests.assign(3, TrackTest::none);
-  EXPECT_EQ(certify(planted.family.problem(), step, false, tests, counts), std::vector<bool>(3, false));
+  EXPECT_EQ(certify(first.planted.family.problem(), first.step, false, tests, counts),
+            std::vector<bool>(3, false));
 }
 
 /// A mode in the chart of s, and two eigenvalues, with their conjugates, in that of 1/s, whose mass goes to
@@ -119,17 +123,14 @@ TEST(Certify, ClosesInBothChartsInAnyUnitOfTime) {
 }
 
 TEST(Certify, DoesNotDependOnTheNumberOfThreads) {
-  PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 0.1}, {2.6, 0.1}, {5.0, 0.1}})));
-  const PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
-  Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
-  std::swap(step.right.tracks[1], step.right.tracks[2]);
+  Exchanged last(1, 2);
   std::vector<std::uint64_t> work;
   for (const int threads : {1, 4}) {
-    PathProblem problem = planted.family.problem();
+    PathProblem problem = last.planted.family.problem();
     problem.threads = threads;
     RunCounts counts;
     std::vector<TrackTest> tests = strict(3);
-    EXPECT_EQ(certify(problem, step, false, tests, counts), (std::vector<bool>{true, false, false}));
+    EXPECT_EQ(certify(problem, last.step, false, tests, counts), (std::vector<bool>{true, false, false}));
     work.push_back(counts.certificate_factorizations);
   }
   EXPECT_EQ(work[0], work[1]);

@@ -2,50 +2,38 @@
 #include <gtest/gtest.h>
 
 #include "eigentrail/continuation/point_modes.hpp"
-#include "eigentrail/continuation/recorded_path.hpp"
+#include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::threads_test {
 namespace {
 
 /// n freedoms whose frequencies veer and are damped, M the identity.
-std::string family(int n) {
-  const auto matrix = [n](auto&& entry) {
-    std::string text = "[";
-    for (int i = 0; i < n; ++i) {
-      text += i > 0 ? ", [" : "[";
-      for (int j = 0; j < n; ++j) text += (j > 0 ? ", " : "") + std::to_string(entry(i, j));
-      text += "]";
+Setting family(int n) {
+  Matrix C = Matrix::Zero(n, n), K = C, growth = C;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      C(i, j) = i == j ? 0.02 + 0.001 * i : 0.05 * (i < j ? 1 : -1);
+      K(i, j) = i == j ? 9.0 + 0.7 * i : 0.02 / (1.0 + i + j);
     }
-    return text + "]";
-  };
-  const auto identity = [](int i, int j) { return i == j ? 1.0 : 0.0; };
-  const auto stiffness = [](int i, int j) { return i == j ? 9.0 + 0.7 * i : 0.02 / (1.0 + i + j); };
-  const auto growth = [](int i, int j) { return i == j ? 3.0 - 0.1 * ((7 * i) % 11) : 0.0; };
-  const auto damping = [](int i, int j) { return i == j ? 0.02 + 0.001 * i : 0.05 * (i < j ? 1 : -1); };
-  return "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\nmodes = 8\n[matrix_family]\nM = [" +
-         matrix(identity) + "]\nC = [" + matrix(damping) + "]\nK = [" + matrix(stiffness) + ", " +
-         matrix(growth) + "]\n";
+    growth(i, i) = 3.0 - 0.1 * ((7 * i) % 11);
+  }
+  return make_setting(family_scene({{Matrix::Identity(n, n)}, {C}, {K, growth}}, 0.0, 1.0), {{"modes", "8"}});
 }
 
 RecordedPath path_with(const Setting& setting, int threads) {
   TraceOptions options = setting.options;
   options.threads = threads;
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    return true;
-  };
-  const TraceResult result = trace(*setting.model, options, observer);
+  const auto [result, path] = trace_path(*setting.model, options);
   EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
-  return recorder.path();
+  return path;
 }
 
 TEST(Threads, GiveTheSameBits) {
   constexpr int n = 40;
   ASSERT_TRUE(is_worth_sharing(8, n)) << "the modes must be shared at all";
-  const Setting setting = make_setting(family(n), {});
+  const Setting setting = family(n);
   const RecordedPath one = path_with(setting, 1);
   for (const int threads : {2, 5}) {
     const RecordedPath many = path_with(setting, threads);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "eigentrail/modes/regroup.hpp"
+#include "support/matrix_text.hpp"
 #include "support/scenes.hpp"
 #include "support/spectra.hpp"
 
@@ -40,63 +41,6 @@ TEST(Trace, RandomBasisAtEveryPointChangesNoEigenvalue) {
 TEST(Trace, RandomBasisTakesTheSameSteps) {
   const Setting setting = scene_setting("rotating_mass");
   EXPECT_EQ(record_trace(setting, BasisChoice::random).result.nodes, record_trace(setting).result.nodes);
-}
-
-TEST(Trace, UpAndDownAgree) {
-  const RecordedTrace down = record_trace(scene_setting("rotating_mass", {{"from", "60"}, {"to", "10"}}));
-  const RecordedTrace up =
-      record_trace(scene_setting("rotating_mass", {{"from", "10"}, {"to", "60"}},
-                                 {{"[\"offset + length\", 0, 0]", "[5.89, -0.58, 0.84]"}}));
-  ASSERT_EQ(up.result.status, TraceStatus::completed) << up.result.message;
-  for (int i = 0; i <= 50; ++i) {
-    const double p = 10.0 + i;
-    const ComplexVector a = down.eigenvalues_at(p);
-    const ComplexVector b = up.eigenvalues_at(p);
-    for (int k = 0; k < 2; ++k) EXPECT_LT(std::abs(a[k] - b[k]), 8e-8 * std::abs(a[k])) << "at " << p;
-  }
-}
-
-TEST(Trace, EndsExactlyWhereItWasAskedTo) {
-  const RecordedTrace recorded = record_trace(scene_setting("rotating_mass", {{"to", "37.7"}}));
-  EXPECT_EQ(recorded.nodes.front().p, 100.0);
-  EXPECT_EQ(recorded.nodes.back().p, 37.7);
-}
-
-TEST(Trace, FollowsTheModesOfLeastMagnitude) {
-  const RecordedTrace recorded = record_trace(scene_setting("rotating_mass", {{"modes", "1"}}));
-  EXPECT_EQ(recorded.result.n_modes, 1);
-  EXPECT_EQ(recorded.result.n_available, 2);
-  EXPECT_NEAR(recorded.modes.front()[0].s.imag(), 44.72, 0.01);
-}
-
-TEST(Trace, ModesThatCrossKeepTheirIdentity) {
-  // s^2 = -(1 +- p) with vectors that do not turn: the frequencies cross at p = 0.
-  const Setting setting = make_setting(
-      "[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 0.5\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
-      "K = [ [[1, 0], [0, 1]], [[0.17, 0.985], [0.985, -0.17]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  const double slope = std::sqrt(0.17 * 0.17 + 0.985 * 0.985);
-  for (int i = 0; i <= 40; ++i) {
-    const double p = -0.5 + i / 40.0;
-    EXPECT_NEAR(recorded.eigenvalues_at(p)[0].imag(), std::sqrt(1.0 + slope * p), 1e-5);
-    EXPECT_NEAR(recorded.eigenvalues_at(p)[1].imag(), std::sqrt(1.0 - slope * p), 1e-5);
-  }
-}
-
-TEST(Trace, ModesThatVeerKeepTheirOrder) {
-  // Coupling 0.05: the frequencies come close and turn away, exchanging shapes over many steps.
-  const Setting setting = make_setting(
-      "[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 0.5\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
-      "K = [ [[1, 0.05], [0.05, 1]], [[1, 0], [0, -1]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  for (int i = 0; i <= 40; ++i) {
-    const double p = -0.5 + i / 40.0;
-    const double root = std::sqrt(p * p + 0.0025);
-    EXPECT_NEAR(recorded.eigenvalues_at(p)[0].imag(), std::sqrt(1.0 - root), 1e-5);
-    EXPECT_NEAR(recorded.eigenvalues_at(p)[1].imag(), std::sqrt(1.0 + root), 1e-5);
-  }
 }
 
 /// ds/dp of a mode at a point.
@@ -143,18 +87,6 @@ TEST(Trace, OverdampedRootsOfOneFreedomAreTwoModes) {
   }
 }
 
-TEST(Trace, EveryOutcomeAtTheStartIsAStatusWithAReason) {
-  const auto family = [](const std::string& M, const std::string& K) {
-    return make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = " + M +
-                        "\nK = " + K + "\n");
-  };
-  const RecordedTrace singular =
-      record_trace(family("[ [[1, 0], [0, 0]] ]", "[ [[1, 0], [0, 0]], [[1, 0], [0, 0]] ]"));
-  EXPECT_EQ(singular.result.status, TraceStatus::singular_pencil);
-  EXPECT_FALSE(has_started(singular.result.status));
-  EXPECT_TRUE(singular.nodes.empty());
-}
-
 TEST(Trace, StartsAtAnExceptionalPoint) {
   // K = [[1 + p, 1/2], [-1/2, 2]]: both modes are one at p = 0, where s^2 = -3/2. Behind it
   // s^2 = -(3 + p) / 2 +- sqrt(p (p - 2)) / 2.
@@ -186,17 +118,8 @@ TEST(Trace, ClusterThatRoundingTearsApartIsReportedAtTheStart) {
   Matrix inverse = Matrix::Identity(n, n);
   inverse.diagonal(-1).setConstant(-1.0);
   const Matrix K = S * chain * inverse;
-  std::ostringstream stiffness, mass;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const char* separator = j > 0 ? ", " : i > 0 ? "], [" : "";
-      stiffness << separator << K(i, j);
-      mass << separator << (i == j ? 1 : 0);
-    }
-  }
-  const RecordedTrace recorded = record_trace(
-      make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[" + mass.str() +
-                   "]] ]\nK = [ [[" + stiffness.str() + "]], [[" + mass.str() + "]] ]\n"));
+  const Matrix I = Matrix::Identity(n, n);
+  const RecordedTrace recorded = record_trace(make_setting(family_scene({{I}, {}, {K, I}}, 0.0, 1.0)));
   EXPECT_EQ(recorded.result.status, TraceStatus::multiple_mode) << recorded.result.message;
   EXPECT_FALSE(has_started(recorded.result.status));
   EXPECT_NE(recorded.result.message.find("p = 0"), std::string::npos) << recorded.result.message;
@@ -294,12 +217,6 @@ TEST(Trace, StopsWhenTheObserverSaysSo) {
   const TraceResult result = trace(*setting.model, setting.options, observer);
   EXPECT_EQ(result.status, TraceStatus::stopped);
   EXPECT_EQ(seen, 5);
-}
-
-TEST(Trace, GivesUpAfterTooManyPoints) {
-  const RecordedTrace recorded = record_trace(scene_setting("rotating_mass", {{"max_nodes", "7"}}));
-  EXPECT_EQ(recorded.result.status, TraceStatus::too_many_nodes);
-  EXPECT_EQ(recorded.nodes.size(), 7U);
 }
 
 }  // namespace

@@ -6,20 +6,15 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <ostream>
-#include <random>
 #include <string>
+
+#include "support/families.hpp"
 
 namespace eigentrail::test::constraint_factorization_test {
 namespace {
 
 // A few hundred roundings in an orthogonal factorization of unit rows.
 constexpr double rounding = 1e-13;
-
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
 
 /// Two unit rows in a generic plane of R^5 at the given angle.
 Matrix rows_at_angle(double angle) {

@@ -12,6 +12,8 @@
 #include <functional>
 #include <numbers>
 
+#include "scene/input_error.hpp"
+
 namespace eigentrail::test::hdf5_file_test {
 namespace {
 
@@ -37,16 +39,6 @@ DatasetSpec growing(const std::string& name, ElementType type, const Shape& shap
 
 Hdf5File read_back(Hdf5Writer& file) {
   return Hdf5File::from_image("file", file.image());
-}
-
-/// The message of the Hdf5Error that `action` throws.
-std::string hdf5_error(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Hdf5Error& error) {
-    return error.what();
-  }
-  return "no Hdf5Error was thrown";
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -96,7 +88,7 @@ TEST_F(Hdf5FileTest, TextsOfFixedLengthAndWholeRealNumbersAreRead) {
   EXPECT_EQ(file.read_texts("names"), (std::vector<std::string>{"a b", "sixsix"}));
   EXPECT_EQ(file.text_attribute("order"), "columns");
   EXPECT_EQ(file.integer_attribute("digits"), 4);
-  EXPECT_TRUE(contains(hdf5_error([&] { (void)file.integer_attribute("half"); }),
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { (void)file.integer_attribute("half"); }),
                        "attribute half: expected whole numbers"));
 }
 
@@ -115,7 +107,7 @@ TEST_F(Hdf5FileTest, FileInMemoryGoesOnFromItsImage) {
   std::ofstream(path, std::ios::binary) << again.image();
   EXPECT_EQ(Hdf5File::open(path).read_real("x").size(), 3u);
   EXPECT_THROW(Hdf5Writer::from_image("none", "no HDF5 file"), Hdf5Error);
-  EXPECT_EQ(hdf5_error([] { Hdf5File::from_image("none", "text"); }),
+  EXPECT_EQ(error_text<Hdf5Error>([] { Hdf5File::from_image("none", "text"); }),
             "none: cannot be read: HDF5 could not open it: it is no HDF5 file, or damaged: file signature "
             "not found");
 }
@@ -326,7 +318,7 @@ TEST_F(Hdf5FileTest, HasFollowsNestedPaths) {
 
 TEST_F(Hdf5FileTest, CreatingRefusesAnExistingFile) {
   Hdf5Writer::create(path).create_dataset(fixed("old", ElementType::real, {1}));
-  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5Writer::create(path); }), path));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5Writer::create(path); }), path));
   EXPECT_TRUE(Hdf5File::open(path).has("old"));
 }
 
@@ -334,17 +326,18 @@ TEST_F(Hdf5FileTest, MembersAreListedByName) {
   Hdf5Writer file = Hdf5Writer::create(path);
   for (const char* name : {"b", "a", "c"}) file.create_dataset(fixed(name, ElementType::real, {1}));
   EXPECT_EQ(read_back(file).members("/"), (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_TRUE(contains(hdf5_error([&] { (void)read_back(file).members("/none"); }), "none"));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { (void)read_back(file).members("/none"); }), "none"));
 }
 
 TEST_F(Hdf5FileTest, FilesThatCannotBeOpenedAreNamed) {
   const std::string missing = path_of("_missing.h5");
-  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(missing); }), missing));
-  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(testing::TempDir()); }), testing::TempDir()));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5File::open(missing); }), missing));
+  EXPECT_TRUE(
+      contains(error_text<Hdf5Error>([&] { Hdf5File::open(testing::TempDir()); }), testing::TempDir()));
   std::ofstream(path) << "title = \"no HDF5\"\n";
-  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(path); }), path));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5File::open(path); }), path));
   const std::string nowhere = testing::TempDir() + "no/such/folder/x.h5";
-  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5Writer::create(nowhere); }), nowhere));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5Writer::create(nowhere); }), nowhere));
 }
 
 TEST_F(Hdf5FileTest, TruncatedFilesAreRefused) {
@@ -354,7 +347,7 @@ TEST_F(Hdf5FileTest, TruncatedFilesAreRefused) {
     file.write_rows("x", 0, std::vector<double>(1000, 1.0));
   }
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  EXPECT_TRUE(contains(hdf5_error([&] { Hdf5File::open(path); }), path));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5File::open(path); }), path));
 }
 
 /// One dataset and one attribute of every type.
@@ -436,7 +429,7 @@ TEST_F(Hdf5FileTest, DatasetsTooLargeForMemoryAreRefused) {
     EXPECT_GE(H5Dset_extent(set, size.data()), 0);
     H5Dclose(set);
   });
-  EXPECT_TRUE(contains(hdf5_error([&] { read_back(file).read_real("huge"); }), "too large"));
+  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { read_back(file).read_real("huge"); }), "too large"));
 }
 
 TEST(ElementCount, IsTheProductOfTheDimensionsWithoutOverflow) {

@@ -134,8 +134,6 @@ TEST_F(MatrixMarket, TableOfSamples) {
 
 TEST_F(MatrixMarket, NamesThatDoNotSayWhat) {
   const std::string good = diagonal("K0.mtx", 1, 2);
-  EXPECT_TRUE(test::contains(message({diagonal("stiffness.mtx", 1, 2)}),
-                             "the name does not say which matrix this is"));
   EXPECT_TRUE(test::contains(message({diagonal("K.5.mtx", 1, 2)}), "the name does not say"));
   EXPECT_TRUE(test::contains(message({diagonal("K17.mtx", 1, 2)}), "powers of the parameter up to 16"));
   EXPECT_TRUE(test::contains(message({good, diagonal("b_K0.mtx", 1, 2)}), "is power 0 of K, and so is"));
@@ -144,13 +142,10 @@ TEST_F(MatrixMarket, NamesThatDoNotSayWhat) {
 TEST_F(MatrixMarket, MatricesThatDoNotFit) {
   const std::string M = diagonal("M0.mtx", 1, 1), K = diagonal("K0.mtx", 1, 2), A = diagonal("A0.mtx", 1, 2);
   const std::string K1 = diagonal("K1.mtx", 1, 1), E = diagonal("E0.mtx", 1, 1);
-  const std::string small = write("K2.mtx", "%%MatrixMarket matrix array real general\n1 1\n1\n");
   const std::string wide = write("A3.mtx", "%%MatrixMarket matrix array real general\n1 2\n1\n1\n");
-  EXPECT_TRUE(test::contains(message({M}), "expected K with M, C or both"));
   EXPECT_TRUE(test::contains(message({K, K1}), "expected K with M, C or both"));
   EXPECT_TRUE(test::contains(message({E}), "E without A"));
   EXPECT_TRUE(test::contains(message({E, K, M}), "E belongs to E x' = A x"));
-  EXPECT_TRUE(test::contains(message({M, K, small}), "K2.mtx: the matrix is 1 x 1; expected 2 x 2, as in"));
   EXPECT_TRUE(
       test::contains(message({wide}), "A3.mtx: the matrix is 1 x 2; expected 2 x 2, a square matrix"));
   EXPECT_TRUE(test::contains(message({M, K, A}), "no matrix has a power of the parameter"));
@@ -159,12 +154,7 @@ TEST_F(MatrixMarket, MatricesThatDoNotFit) {
 
 TEST_F(MatrixMarket, TablesThatDoNotFit) {
   const std::string K = diagonal("K0.mtx", 1, 2);
-  EXPECT_TRUE(test::contains(message({write("a.csv", "p,K\n1,K0.mtx\n")}),
-                             "expected A (and optionally E), or K with"));
-  EXPECT_TRUE(
-      test::contains(message({write("b.csv", "p,Q\n1,K0.mtx\n")}), "column 'Q': expected M, C, K, E or A"));
   EXPECT_TRUE(test::contains(message({write("c.csv", "p,K,K\n1,K0.mtx,K0.mtx\n")}), "has two columns K"));
-  EXPECT_TRUE(test::contains(message({write("d.csv", "p,A\n1,none.mtx\n")}), "none.mtx: no such file"));
   EXPECT_TRUE(test::contains(message({K, write("e.csv", "p,A\n1,K0.mtx\n")}), "expected one table (.csv)"));
   write("small.mtx", "%%MatrixMarket matrix array real general\n1 1\n1\n");
   EXPECT_TRUE(test::contains(message({write("f.csv", "p,A\n1,K0.mtx\n2,small.mtx\n")}),

@@ -76,18 +76,11 @@ TEST(Npy, Texts) {
 TEST(Npy, FaultsNameTheArray) {
   const std::string good = bytes<double>({1, 2, 3});
   const std::pair<std::string, const char*> faults[] = {
-      {"", "a.npz: array A: is no array of NumPy"},
-      {"A = [1, 2, 3]\n", "is no array of NumPy"},
       {npy("<f8", "(3,)", good, false, 9), "version 9 of NumPy's format"},
-      {npy("<f8", "(3,)", good).substr(0, 30), "ends within its header"},
-      {npy("<f8", "(3,)", good.substr(1)), "has 23 bytes of data; its header announces 24"},
       {npy("<f8", "(3,)", good + "x"), "has 25 bytes of data"},
-      {npy("<f8", "(999999999999, 999999999999)", good), "has more than 200000000 elements"},
       {npy("<f8", "(99999999999999999999999,)", good), "its shape cannot be read"},
       {npy("<f8", "3", good), "its shape cannot be read"},
       {npy("<f8", "(1,1,1,1,1,1,1,1,1)", good), "its shape cannot be read"},
-      {npy("<c16", "(3,)", good + good), "is complex; expected real numbers"},
-      {npy("|O", "(3,)", good), "holds Python objects"},
       {npy("<f16", "(3,)", good + good), "known: f4, f8"},
       {npy("<M8", "(3,)", good), "known: f4, f8"},
       {npy("<U999999999", "(0,)", ""), "known: f4, f8"},

@@ -125,14 +125,10 @@ TEST(Op4Binary, FaultsNameTheirPlace) {
   other_length[28] = 25;  // behind the first record
   const std::pair<std::string, const char*> faults[] = {
       {std::string("\0\0\0", 3), "ends within its first record"},
-      {std::string(100, '\0'), "is no file of Nastran's OUTPUT4"},
       {"\x89PNG\r\n\x1a\n" + std::string(50, '\0'), "is no file of Nastran's OUTPUT4"},
-      {other_length, "has the length 24 in front and another one behind"},
       {w.header("K", 0, 1, 2), "no header of a matrix"},
       {w.header("K", 1, 1, 7), "no header of a matrix"},
-      {w.header("K", INT32_MIN, 1, 2), "no header of a matrix"},
       {w.header("K", 1, 1, 2), "matrix K, the file ends between two records"},
-      {one(w.column(1, 1, w.number(NAN))), "matrix K, column 1: row 1 is not finite"},
       {one(w.column(1, 2, w.number(1.0))), "column 1: 1 numbers from row 2 on; the matrix has 1 rows"},
       {one(w.column(1, 1, w.number(1.0) + w.number(1.0))), "2 numbers from row 1 on"},
       {one(w.column(1, 1, w.whole(5))), "a number has one word only"},

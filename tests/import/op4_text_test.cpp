@@ -127,15 +127,11 @@ TEST(Op4Text, ThreeDigitsOfExponent) {
 
 TEST(Op4Text, FaultsNameTheirLine) {
   const std::pair<std::string, const char*> faults[] = {
-      {"hello\n", "a.op4:1: expected a whole number in columns 1 to 8, found 'hello'"},
       {"\n", "no matrix of Nastran's OUTPUT4"},
       {replaced(dense, "       2KAA", "       9KAA"), "no header of a matrix"},
       {replaced(dense, "       3       3", "99999999       0"), "no header of a matrix"},
-      {replaced(dense, "1P,2E16.9", "1P,5I16"), "expected a format of numbers"},
       {replaced(dense, "1P,2E16.9", "1P,0E16.9"), "expected a format of numbers"},
       {replaced(dense, "1P,2E16.9", "9999999E16.9"), "expected a format of numbers"},
-      {dense.substr(0, dense.find("       1       1       3")),
-       "the file ends within matrix KAA; it was cut short"},
       {dense.substr(0, dense.size() - end.size()), "the file ends within matrix KAA"},
       {replaced(dense, "       1       1       3", "       1       2       3"),
        "3 numbers from row 2 on; matrix KAA has 3"},
@@ -144,9 +140,6 @@ TEST(Op4Text, FaultsNameTheirLine) {
        "column 1 of matrix KAA follows column 1"},
       {replaced(dense, "       2       1       3", "       9       1       3"),
        "column 9 of matrix KAA follows column 1"},
-      {replaced(dense, " 3.000000000E+00", "             NaN"),
-       "a.op4:3: expected a finite number in columns 17 to 32"},
-      {replaced(dense, " 3.000000000E+00", "****************"), "found '****************'"},
       {replaced(dense, " 3.000000000E+00", ""), "found ''"},
       {replaced(packed, "  458753", "99999999"), "expected the length and the first row of a string"},
       {replaced(packed, "  458753", "       1"), "expected the length and the first row of a string"},

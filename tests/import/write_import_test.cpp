@@ -7,6 +7,7 @@
 #include "core/hdf5_file.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
+#include "scene/input_error.hpp"
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
@@ -102,12 +103,8 @@ TEST(WriteImport, PolynomialsThatDoNotFitLeaveNothing) {
     const test::Folder folder;
     Imported imported = polynomial();
     change(*imported.family);
-    std::string result = "accepted";
-    try {
-      write_import(imported, folder.path() + "/new", "model", false);
-    } catch (const std::invalid_argument& error) {
-      result = error.what();
-    }
+    const std::string result = error_text<std::invalid_argument>(
+        [&] { write_import(imported, folder.path() + "/new", "model", false); });
     EXPECT_FALSE(std::filesystem::exists(folder.path() + "/new"));
     return result;
   };

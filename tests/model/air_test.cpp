@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "eigentrail/core/errors.hpp"
+#include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test::air_test {
@@ -188,12 +189,8 @@ struct RefusedAir {
 class RefusedStrips : public testing::TestWithParam<RefusedAir> {};
 
 TEST_P(RefusedStrips, SaysWhat) {
-  try {
-    (void)make_setting(with_wing(GetParam().tables));
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(GetParam().message), std::string::npos) << error.what();
-  }
+  const std::string message = input_error([] { (void)make_setting(with_wing(GetParam().tables)); });
+  EXPECT_TRUE(contains(message, GetParam().message)) << message;
 }
 
 const std::string line = "root = [0, 0, 0]\ntip = [1, 0, 0]\n";

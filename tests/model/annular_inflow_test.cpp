@@ -6,6 +6,7 @@
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
+#include "scene/input_error.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test::annular_inflow_test {
@@ -56,14 +57,6 @@ std::string strips_on(double from, double to, const std::string& incidence, int 
          std::to_string(count) + "\n";
 }
 
-Equilibrium solve(const Setting& setting, const OptionTexts& values = {}) {
-  EvaluationCounts counts = setting.model->new_counts();
-  Vector parameters = setting.scene.parameters.declared_values();
-  for (const auto& [name, value] : values) parameters[setting.parameter(name)] = std::stod(value);
-  return solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {},
-                           counts);
-}
-
 /// Inflow of all annuli, m/s.
 std::vector<double> inflow_of(const Setting& setting, const Equilibrium& at) {
   std::vector<double> v;
@@ -96,7 +89,7 @@ TEST(AnnularInflow, HasTheClosedFormInHoverAndClimb) {
   const Setting setting = make_setting(rotor("", strips_on(1.0, radius, "pitch", strips)));
   const std::vector<double> r = radii();
   for (const double climb : {0.0, 2.0, 5.0}) {
-    const Equilibrium found = solve(setting, {{"climb", std::to_string(climb)}});
+    const Equilibrium found = at_rest(setting, {{"climb", climb}});
     ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
     const std::vector<double> v = inflow_of(setting, found);
     ASSERT_EQ(v.size(), r.size());
@@ -115,7 +108,7 @@ TEST(AnnularInflow, IsUniformForIdealTwist) {
   }
   const auto spread = [](const std::string& of_strips) {
     const Setting setting = make_setting(rotor("", of_strips));
-    const Equilibrium found = solve(setting);
+    const Equilibrium found = at_rest(setting);
     EXPECT_EQ(found.status, SteadyStatus::converged) << found.report.message;
     const std::vector<double> v = inflow_of(setting, found);
     const auto [least, most] = std::minmax_element(v.begin(), v.end());
@@ -129,7 +122,7 @@ TEST(AnnularInflow, IsUniformForIdealTwist) {
 /// Prandtl's factor from its definition: the thrust of each annulus on both sides.
 TEST(AnnularInflow, TipLossMeetsTheEquationOfMomentum) {
   const Setting setting = make_setting(rotor("tip_loss = true\n", strips_on(1.0, radius, "pitch", strips)));
-  const Equilibrium found = solve(setting);
+  const Equilibrium found = at_rest(setting);
   ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
   const std::vector<double> r = radii(), v = inflow_of(setting, found);
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -148,7 +141,7 @@ TEST(AnnularInflow, TipLossMeetsTheEquationOfMomentum) {
 TEST(AnnularInflow, CollectiveIsTrimmedToTheThrust) {
   const std::string trim = "\n[[trim]]\nunknown = \"pitch\"\ncondition = \"thrust(disc) = thrust\"\n";
   const Setting setting = make_setting(rotor("", strips_on(1.0, radius, "pitch", strips), trim));
-  const Equilibrium found = solve(setting);
+  const Equilibrium found = at_rest(setting);
   ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
   const double pitch = found.lambda[setting.model->n_constraints()];
   constexpr std::array<double, 6> weights = {0.171324492379170, 0.360761573048139, 0.467913934572691,
@@ -163,14 +156,7 @@ TEST(AnnularInflow, CollectiveIsTrimmedToTheThrust) {
 }
 
 TEST(AnnularInflow, MistakesAreNamed) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      (void)make_setting(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
+  const auto message = [](const std::string& text) { return input_error([&] { (void)make_setting(text); }); };
   std::string uniform = rotor("tip_loss = true\n", strips_on(1.0, radius, "pitch", strips));
   uniform.replace(uniform.find("annular"), 7, "uniform");
   EXPECT_NE(message(uniform).find("needs model = \"annular\""), std::string::npos) << message(uniform);

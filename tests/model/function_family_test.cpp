@@ -7,9 +7,10 @@
 #include <cmath>
 #include <random>
 
-#include "eigentrail/continuation/recorded_path.hpp"
+#include "scene/input_error.hpp"
 #include "support/resumed.hpp"
 #include "support/spectra.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::function_family_test {
 namespace {
@@ -126,20 +127,13 @@ TEST(FunctionFamily, EigenvaluesOfTheTraceAreThoseOfTheFunction) {
   options.from = 0.0;
   options.to = 10.0;
   options.tolerance = 1e-10;
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    return true;
-  };
-  const TraceResult result = trace(family, options, observer);
+  const auto [result, path] = trace_path(family, options);
   ASSERT_EQ(result.status, TraceStatus::completed) << result.message;
   EXPECT_TRUE(result.notes.empty());
   // sin(3 p) takes two pieces of 33 points: its coefficients J_k(7.5) are below 1e-14 from k = 29 on. The
   // first 17 calls show that one piece is not enough; the ends and the middle belong to these, too.
   EXPECT_EQ(family.pieces().size(), 2U);
   EXPECT_LE(family.calls(), 17 + 2 * (33 - 2));
-  const RecordedPath path = recorder.path();
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> uniform(0.0, 10.0);
   double worst = 0.0;
@@ -293,11 +287,8 @@ double error_at_bump(double centre, double width, double resolution) {
   along.parameter = "p";
   along.from = 0.0;
   along.to = 1.0;
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.point = [&](const TracePoint& point) { return recorder.append(point), true; };
-  EXPECT_EQ(trace(family, along, observer).status, TraceStatus::completed);
-  const RecordedPath path = recorder.path();
+  const auto [result, path] = trace_path(family, along);
+  EXPECT_EQ(result.status, TraceStatus::completed);
   double worst = 0.0;
   for (double p = centre - 2.0 * width; p <= centre + 2.0 * width; p += 0.1 * width) {
     const double found = path.eigenvalues_at(path.positions(p).at(0))[0].imag();
@@ -352,12 +343,9 @@ struct Refused {
 class RefusedFunctions : public testing::TestWithParam<Refused> {};
 
 TEST_P(RefusedFunctions, SayWhatWasExpected) {
-  try {
-    const FunctionFamily family(GetParam().function, GetParam().options);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find(GetParam().message), std::string::npos) << error.what();
-  }
+  const std::string message = error_text<std::invalid_argument>(
+      [] { const FunctionFamily family(GetParam().function, GetParam().options); });
+  EXPECT_TRUE(contains(message, GetParam().message)) << message;
 }
 
 const auto good = [](double p) { return with_K(square(2 + p, 0, 0, 1)); };

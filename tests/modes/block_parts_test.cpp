@@ -2,39 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
-#include <random>
 
 #include "eigentrail/modes/invariants.hpp"
+#include "modes/turning_basis.hpp"
 
 namespace eigentrail::test::block_parts_test {
 namespace {
 
 constexpr std::size_t count = 6;  ///< coefficients
-
-ComplexMatrix random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  return ComplexMatrix::NullaryExpr(rows, cols, [&] { return Complex(normal(engine), normal(engine)); });
-}
-
-/// S(h) D(h) S(h)^-1 with S = S0 + h S1, well conditioned.
-std::vector<ComplexMatrix> mixed(const std::vector<ComplexMatrix>& D, unsigned seed) {
-  const Eigen::Index k = D[0].rows();
-  const ComplexMatrix S0 = 2.0 * ComplexMatrix::Identity(k, k) + 0.3 * random_matrix(k, k, seed);
-  const ComplexMatrix S1 = 0.3 * random_matrix(k, k, seed + 1);
-  std::vector<ComplexMatrix> inverse{S0.inverse()};
-  for (std::size_t j = 1; j < count; ++j) inverse.emplace_back(-inverse[0] * S1 * inverse.back());
-  std::vector<ComplexMatrix> Lambda(count, ComplexMatrix::Zero(k, k));
-  for (std::size_t i = 0; i < D.size(); ++i) {
-    for (std::size_t j = 0; i + j < count; ++j) {
-      Lambda[i + j] += S0 * D[i] * inverse[j];
-      if (i + j + 1 < count) Lambda[i + j + 1] += S1 * D[i] * inverse[j];
-    }
-  }
-  return Lambda;
-}
 
 /// Two eigenvalues i +- sqrt(h + 1e-9 h^2), defective at h = 0, beside two others at 2i + h and 3i - h.
 std::vector<ComplexMatrix> with_exceptional_point() {
@@ -46,7 +22,7 @@ std::vector<ComplexMatrix> with_exceptional_point() {
   D[1](2, 2) = 1.0;
   D[1](3, 3) = -1.0;
   D[2](1, 0) = 1e-9;
-  return mixed(D, 3);
+  return in_turning_basis(D, count, 3);
 }
 
 TEST(PartSeries, TellsAGapThroughAnExceptionalPointToFullAccuracy) {
@@ -95,7 +71,7 @@ TEST(GapSeries, OfAPermanentDoubletAndAThird) {
   std::vector<ComplexMatrix> D(2, ComplexMatrix::Zero(3, 3));
   D[0].diagonal().setConstant(Complex(0.0, 1.0));
   D[1](2, 2) = 1.0;
-  const ComplexVector gap = discriminant_series(mixed(D, 8), 2);
+  const ComplexVector gap = discriminant_series(in_turning_basis(D, count, 8), 2);
   EXPECT_LT(std::abs(gap[2] - 0.25), 1e-13);
   EXPECT_LT(gap.head(2).norm() + gap.tail(3).norm(), 1e-13);
 }

@@ -10,28 +10,23 @@
 #include <stdexcept>
 #include <vector>
 
+#include "support/families.hpp"
+
 namespace eigentrail::test::matching_test {
 namespace {
 
 // Some ten roundings in each product of a handful of terms.
 constexpr double rounding = 1e-14;
 
-ComplexMatrix random_shapes(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return ComplexMatrix::NullaryExpr(rows, columns,
-                                    [&] { return Complex(normal(generator), normal(generator)); });
-}
-
 /// Symmetric positive definite.
 Matrix mass_matrix(Eigen::Index n) {
-  const Matrix R = random_shapes(n, n, 5).real();
+  const Matrix R = random_matrix(n, n, 5);
   return R * R.transpose() + Matrix::Identity(n, n);
 }
 
 TEST(ModalAssurance, IsOneForParallelShapesWhateverTheirPhaseAndLength) {
   const Matrix M = mass_matrix(5);
-  const ComplexMatrix V = random_shapes(5, 1, 1);
+  const ComplexMatrix V = random_complex(5, 1, 1);
   for (const Complex factor : {Complex(1.0), Complex(-3.0), Complex(0.0, 1.0), std::polar(1e-6, 2.0)}) {
     EXPECT_NEAR(modal_assurance(V, V * factor, M)(0, 0), 1.0, rounding) << factor;
   }
@@ -39,8 +34,8 @@ TEST(ModalAssurance, IsOneForParallelShapesWhateverTheirPhaseAndLength) {
 
 TEST(ModalAssurance, IsZeroForShapesOrthogonalInTheMass) {
   const Matrix M = mass_matrix(5);
-  const ComplexVector v = random_shapes(5, 1, 1);
-  const ComplexVector other = random_shapes(5, 1, 2);
+  const ComplexVector v = random_complex(5, 1, 1);
+  const ComplexVector other = random_complex(5, 1, 2);
   const ComplexVector Mv = M * v;
   const ComplexVector w = other - v * (Mv.dot(other) / Mv.dot(v));
   EXPECT_LT(modal_assurance(v, w, M)(0, 0), rounding);
@@ -63,8 +58,8 @@ TEST(ModalAssurance, OfSmallShapesHasClosedForm) {
 
 TEST(ModalAssurance, RowsBelongToTheFirstListAndColumnsToTheSecond) {
   const Matrix M = mass_matrix(4);
-  const ComplexMatrix V = random_shapes(4, 3, 1);
-  const ComplexMatrix W = random_shapes(4, 2, 2);
+  const ComplexMatrix V = random_complex(4, 3, 1);
+  const ComplexMatrix W = random_complex(4, 2, 2);
   const Matrix mac = modal_assurance(V, W, M);
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j < 2; ++j) {
@@ -78,8 +73,8 @@ TEST(ModalAssurance, RowsBelongToTheFirstListAndColumnsToTheSecond) {
 
 TEST(ModalAssurance, DoesNotDependOnTheLengthOfShapesOrTheUnitOfMass) {
   const Matrix M = mass_matrix(4);
-  const ComplexMatrix V = random_shapes(4, 3, 1);
-  const ComplexMatrix W = random_shapes(4, 3, 2);
+  const ComplexMatrix V = random_complex(4, 3, 1);
+  const ComplexMatrix W = random_complex(4, 3, 2);
   const Vector lengths = (Vector(3) << 1e-8, 1.0, 1e8).finished();
   const Matrix scaled = modal_assurance(V * lengths.asDiagonal(), W * Complex(0.0, -5.0), 1e3 * M);
   EXPECT_LT((scaled - modal_assurance(V, W, M)).norm(), rounding);

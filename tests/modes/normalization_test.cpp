@@ -4,7 +4,8 @@
 
 #include <cmath>
 #include <complex>
-#include <random>
+
+#include "support/families.hpp"
 
 namespace eigentrail::test::normalization_test {
 namespace {
@@ -13,9 +14,7 @@ namespace {
 constexpr double rounding = 1e-14;
 
 ComplexVector random_shape(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return ComplexVector::NullaryExpr(n, [&] { return Complex(normal(generator), normal(generator)); });
+  return random_complex(n, 1, seed);
 }
 
 /// Symmetric positive definite, with couplings.

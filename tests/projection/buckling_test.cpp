@@ -46,11 +46,7 @@ struct WholeStiffness {
   Vector buckling;  ///< of the smallest one
 
   explicit WholeStiffness(double w) {
-    const Setting setting = column("1");
-    const Vector parameters = parameters_at(setting.problem(), w);
-    EvaluationCounts counts = setting.model->new_counts();
-    const Equilibrium at = solve_equilibrium(*setting.model, parameters,
-                                             setting.model->initial_guess(parameters), Vector(), {}, counts);
+    const Equilibrium at = at_rest(column("1"), {{"w", w}});
     EXPECT_EQ(at.status, SteadyStatus::converged) << at.report.message;
     basis = ConstraintFactorization(SystemMatrix(at.linearization.A[0].dense())).null_basis();
     const Matrix K = basis.transpose() * (at.linearization.K[0] * basis);

@@ -5,22 +5,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "eigentrail/reduction/complex_blocks.hpp"
 #include "eigentrail/reduction/independent_parts.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
+#include "support/families.hpp"
 
 namespace eigentrail::test::conjugate_parts_test {
 namespace {
 
 constexpr double rounding = 1e-12;
-
-Matrix random_matrix(Eigen::Index n, unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(n, n, [&] { return normal(engine); });
-}
 
 /// a + ib in w = x + iy as a real matrix of (x1, y1, x2, y2, ...).
 Matrix in_two_directions(const Matrix& a, const Matrix& b) {
@@ -34,7 +28,7 @@ Matrix in_two_directions(const Matrix& a, const Matrix& b) {
 
 /// Mass, damping with gyroscopic moments, and stiffness of m discs on an isotropic shaft.
 CoefficientMatrices isotropic_shaft(Eigen::Index m) {
-  const Matrix none = Matrix::Zero(m, m), R = random_matrix(m, 1), S = random_matrix(m, 2);
+  const Matrix none = Matrix::Zero(m, m), R = random_matrix(m, m, 1), S = random_matrix(m, m, 2);
   const Matrix I = Matrix::Identity(m, m);
   return {{in_two_directions(I, none)},
           {in_two_directions(0.01 * I, none), in_two_directions(none, -(S * S.transpose() + I))},
@@ -50,7 +44,7 @@ CoefficientMatrices in_coordinates(CoefficientMatrices all, const Matrix& left, 
 
 /// Coordinates that are neither orthogonal nor close to singular.
 Matrix mixing(Eigen::Index n, unsigned seed) {
-  return 2.0 * Matrix::Identity(n, n) + 0.3 * random_matrix(n, seed);
+  return 2.0 * Matrix::Identity(n, n) + 0.3 * random_matrix(n, n, seed);
 }
 
 std::shared_ptr<const IndependentParts> pairs_of(const CoefficientMatrices& all) {
@@ -161,7 +155,7 @@ TEST(ConjugateParts, AreNoneWhereBothDirectionsAreEqualParts) {
 /// A shaft beside another structure, and the same shaft again.
 TEST(ConjugateParts, AreFoundAmongOtherPartsAndCopies) {
   const CoefficientMatrices shaft = isotropic_shaft(2);
-  const Matrix other = random_matrix(3, 5), stiffness = other * other.transpose() + Matrix::Identity(3, 3);
+  const Matrix other = random_matrix(3, 3, 5), stiffness = other * other.transpose() + Matrix::Identity(3, 3);
   const auto beside = [&](const Matrix& A, const Matrix& B) {
     Matrix all = Matrix::Zero(11, 11);
     all.topLeftCorner(4, 4) = all.block(4, 4, 4, 4) = A;
@@ -169,7 +163,7 @@ TEST(ConjugateParts, AreFoundAmongOtherPartsAndCopies) {
     return all;
   };
   const CoefficientMatrices all{{beside(shaft.M[0], Matrix::Identity(3, 3))},
-                                {beside(shaft.C[0], random_matrix(3, 6)), beside(shaft.C[1], stiffness)},
+                                {beside(shaft.C[0], random_matrix(3, 3, 6)), beside(shaft.C[1], stiffness)},
                                 {beside(shaft.K[0], stiffness)}};
   for (const bool mixed : {false, true}) {
     const Matrix T = mixing(11, 10);

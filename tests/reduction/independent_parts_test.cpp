@@ -7,9 +7,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "eigentrail/reduction/reduced_pencil.hpp"
+#include "support/families.hpp"
 
 namespace eigentrail::test::independent_parts_test {
 namespace {
@@ -20,19 +20,13 @@ std::shared_ptr<const IndependentParts> parts_of(const std::vector<Matrix>& all)
   return find_independent_parts({{all}, {}, {}});
 }
 
-Matrix random_matrix(Eigen::Index n, unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(n, n, [&] { return normal(engine); });
-}
-
 /// Coordinates that are neither orthogonal nor close to singular.
 Matrix mixing(Eigen::Index n, unsigned seed) {
-  return 2.0 * Matrix::Identity(n, n) + 0.5 * random_matrix(n, seed);
+  return 2.0 * Matrix::Identity(n, n) + 0.5 * random_matrix(n, n, seed);
 }
 
 Matrix orthogonal(Eigen::Index n, unsigned seed) {
-  return random_matrix(n, seed).householderQr().householderQ() * Matrix::Identity(n, n);
+  return random_matrix(n, n, seed).householderQr().householderQ() * Matrix::Identity(n, n);
 }
 
 Matrix side_by_side(const Matrix& A, const Matrix& B) {
@@ -141,7 +135,8 @@ TEST(IndependentParts, OfSeveralFreedomsHaveCopies) {
     std::vector<Matrix> all;
     const Matrix Q = orthogonal(3 * size, 9);
     for (unsigned k = 0; k < 4; ++k) {
-      const Matrix A = random_matrix(size, 30 + k) + (k == 0 ? 4.0 : 0.0) * Matrix::Identity(size, size);
+      const Matrix A =
+          random_matrix(size, size, 30 + k) + (k == 0 ? 4.0 : 0.0) * Matrix::Identity(size, size);
       all.emplace_back(Q.transpose() * side_by_side(side_by_side(A, A), A) * Q);
     }
     const auto parts = find_independent_parts({{all[0]}, {all[1]}, {all[2], all[3]}});
@@ -185,7 +180,7 @@ TEST(IndependentParts, OfDifferentUnsymmetricPartsAreFoundInAnyCoordinates) {
   const Matrix R = mixing(7, 2);
   std::vector<Matrix> all;
   for (unsigned k = 0; k < 4; ++k) {
-    const Matrix blocks = side_by_side(random_matrix(4, 10 + k), random_matrix(3, 20 + k));
+    const Matrix blocks = side_by_side(random_matrix(4, 4, 10 + k), random_matrix(3, 3, 20 + k));
     all.emplace_back(L * blocks * R);
   }
   expect_parts(all, {3, 4});
@@ -207,9 +202,9 @@ TEST(IndependentParts, KeepSymmetryAndSkewSymmetry) {
   const Matrix Q = mixing(6, 4);
   const auto symmetric = [](const Matrix& A) { return Matrix(A * A.transpose()); };
   const auto skew = [](const Matrix& A) { return Matrix(A - A.transpose()); };
-  const Matrix M = side_by_side(symmetric(random_matrix(3, 1)), symmetric(random_matrix(3, 2)));
-  const Matrix K = side_by_side(symmetric(random_matrix(3, 3)), symmetric(random_matrix(3, 4)));
-  const Matrix G = side_by_side(skew(random_matrix(3, 5)), skew(random_matrix(3, 6)));
+  const Matrix M = side_by_side(symmetric(random_matrix(3, 3, 1)), symmetric(random_matrix(3, 3, 2)));
+  const Matrix K = side_by_side(symmetric(random_matrix(3, 3, 3)), symmetric(random_matrix(3, 3, 4)));
+  const Matrix G = side_by_side(skew(random_matrix(3, 3, 5)), skew(random_matrix(3, 3, 6)));
   const std::vector<Matrix> all{Q.transpose() * M * Q, Q.transpose() * K * Q, Q.transpose() * G * Q};
   expect_parts(all, {3, 3});
   const auto parts = parts_of(all);
@@ -231,7 +226,7 @@ TEST(IndependentParts, AreNotSeparatedWhereACouplingIsAboveRounding) {
 }
 
 TEST(IndependentParts, OfAFamilyThatIsCoupledAreNone) {
-  EXPECT_EQ(parts_of({random_matrix(5, 1), random_matrix(5, 2), random_matrix(5, 3)}), nullptr);
+  EXPECT_EQ(parts_of({random_matrix(5, 5, 1), random_matrix(5, 5, 2), random_matrix(5, 5, 3)}), nullptr);
   EXPECT_EQ(parts_of({ziegler_M, ziegler_K, ziegler_P}), nullptr);
   EXPECT_EQ(parts_of({}), nullptr);
   EXPECT_EQ(parts_of({Matrix::Identity(1, 1)}), nullptr);

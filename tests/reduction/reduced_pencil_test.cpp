@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "support/families.hpp"
+
 namespace eigentrail::test::reduced_pencil_test {
 namespace {
 
@@ -16,12 +18,6 @@ MatrixSeries random_series(std::size_t length, Eigen::Index rows, Eigen::Index c
     series.push_back(Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); }));
   }
   return series;
-}
-
-Matrix evaluate(const MatrixSeries& series, double h) {
-  Matrix value = series.back();
-  for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
-  return value;
 }
 
 TEST(ReducedPencil, SeriesProductMatchesTheProductOfTheSeries) {

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+
+#include "support/families.hpp"
 
 namespace eigentrail::test::restricted_basis_test {
 namespace {
@@ -23,16 +24,10 @@ SparseMatrix constraints_at(double h) {
   return A;
 }
 
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns) {
-  std::mt19937_64 engine(5);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
-}
-
 /// Two motions allowed at h = 0, orthonormal.
 Motions motions() {
   const SparseMatrix A = constraints_at(0.0);
-  const Matrix allowed = ConstraintFactorization(SystemMatrix(A)).allowed_part(random_matrix(n, 3));
+  const Matrix allowed = ConstraintFactorization(SystemMatrix(A)).allowed_part(random_matrix(n, 3, 5));
   return {Matrix(allowed.householderQr().householderQ() * Matrix::Identity(n, 3)), A};
 }
 
@@ -53,7 +48,7 @@ TEST(RestrictedBasis, IsAllowedAndOrthonormal) {
 TEST(RestrictedBasis, HoldsTheMotionsWhosePartAtTheReferenceIsKnown) {
   const SystemMatrix A = constraints_at(0.1);
   const ConstraintFactorization here(A);
-  const Matrix elsewhere = here.allowed_part(random_matrix(n, 1));
+  const Matrix elsewhere = here.allowed_part(random_matrix(n, 1, 5));
   const SparseMatrix B = constraints_at(0.0);
   const Matrix part = ConstraintFactorization(SystemMatrix(B)).allowed_part(elsewhere);
   const auto basis = restricted_basis({part.normalized(), B}, A, here);

@@ -5,7 +5,8 @@
 #include <Eigen/LU>
 
 #include <cmath>
-#include <random>
+
+#include "support/families.hpp"
 
 namespace eigentrail::test::tangent_basis_test {
 namespace {
@@ -21,18 +22,6 @@ MatrixSeries turning_constraints() {
   A[3] << 0, -1.0 / 6, 0, 0, 0.7, 0, 0, -0.2;
   A[4] << 1.0 / 24, 0, 0, 0, 0, 0, 0, 0;
   return A;
-}
-
-Matrix evaluate(const MatrixSeries& series, double h) {
-  Matrix value = series.back();
-  for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
-  return value;
-}
-
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
 }
 
 TEST(TangentBasis, SeriesAnnihilatesTheConstraintsToItsOrder) {

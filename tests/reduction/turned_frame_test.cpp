@@ -2,20 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "eigentrail/reduction/independent_parts.hpp"
 #include "eigentrail/reduction/tangent_basis.hpp"
 #include "reduction/separated_basis.hpp"
+#include "support/families.hpp"
 
 namespace eigentrail::test::turned_frame_test {
 namespace {
-
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
-}
 
 /// Coordinates of the next of three equal parts with four coordinates each take the place of those of this.
 Matrix rotation_of_three(Eigen::Index size) {

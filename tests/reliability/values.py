@@ -24,7 +24,6 @@ EXPRESSIONS = [
 ]
 
 VALUES = [
-    blade("from equal to to", "to = 5.0", "§to = 100.0", "[trace] to: equals from (100)"),
     blade("tolerance too large", "to = 5.0", "to = 5.0\n§tolerance = 0.5",
           "[trace] tolerance: must lie between 1e-13 and 0.1; found 0.5"),
     blade("tolerance of zero", "to = 5.0", "to = 5.0\n§tolerance = 0", "[trace] tolerance: must lie between"),
@@ -56,7 +55,6 @@ VALUES = [
     ("two frames", BLADE.replace("[frame]", "[[frame]]") + "\n§[[frame]]\nangular_velocity = [0, 0, 1]\n",
      ("[frame]: a scene has one of these at most",)),
     blade_with("frame defined twice", "§[frame]\nangular_velocity = [0, 0, 1]", "not valid TOML", "frame"),
-    blade("text that is never closed", 'title = "Blade"', 'title = "Blade§', "not valid TOML"),
 ]
 
 
@@ -87,30 +85,12 @@ def events(name, lines, *fragments):
 
 
 SYNTAX = [
-    coefficient("two operators", "2 ** drag", "at character 3:", "'^'"),
     coefficient("operator at the end", "2 * ", "at character", "expression ends where a number"),
-    coefficient("operator alone", "/", "at character 1:", "unexpected '/'"),
-    coefficient("nothing but spaces", "  ", "expression ends where a number"),
-    coefficient("nothing in parentheses", "2 * ()", "at character 6:", "unexpected ')'"),
-    coefficient("parenthesis too many", "(drag))", "at character 7:", "unexpected ')'"),
-    coefficient("product without a sign", "2 drag", "at character 3:", "unexpected 'd'"),
-    coefficient("parentheses multiplied without a sign", "(2)(drag)", "at character 4:", "unexpected '('"),
-    coefficient("function without parentheses", "sin drag", "at character 1:", "'sin'"),
-    coefficient("function without an argument", "sin()", "at character 5:", "unexpected ')'"),
-    coefficient("function of two arguments", "atan(1, 2)", "','"),
-    coefficient("parameter called like a function", "drag(2)", "at character 1:", "unknown function 'drag'"),
     coefficient("comparison", "drag < 3", "at character 6:", "unexpected '<'"),
     coefficient("brackets", "[drag]", "at character 1:", "unexpected '['"),
-    coefficient("assignment", "drag = 2", "at character 6:", "unexpected '='"),
     coefficient("percent sign", "5 %", "at character 3:", "unexpected '%'"),
     coefficient("letter that is not ASCII", "2 * ω", "at character 5:", "unexpected 'ω'"),
     coefficient("degree sign", "30°", "at character 3:", "unexpected '°'"),
-    coefficient("number with two dots in an expression", "1.2.3", "at character 4:", "unexpected '.'"),
-    coefficient("exponent without digits", "1e", "at character 2:", "unexpected 'e'"),
-    coefficient("hexadecimal number in an expression", "0x10", "at character 2:", "unexpected 'x'"),
-    coefficient("dot alone", ".", "at character 1:", "this is no number"),
-    coefficient("number in an expression beyond all numbers", "1e999", "at character 1:", "number"),
-    coefficient("nan in an expression", "nan", "at character 1: unknown parameter 'nan'"),
     coefficient("infinity in an expression", "2 * inf", "at character 5: unknown parameter 'inf'"),
     coefficient("parentheses a hundred and fifty deep", "(" * 150 + "drag" + ")" * 150, "nested deeper than 100"),
     coefficient("powers a hundred and fifty deep", "2^" * 150 + "drag", "too many intermediate results"),
@@ -186,7 +166,6 @@ UNITS = [
     unit("unit with a power of a half", "s^0.5"),
     unit("unit with a power too large", "s^13"),
     unit("unit with parentheses", "1/(s)", "did you mean '1/s'?"),
-    unit("unit in capitals", "RPM", "did you mean 'rpm'?"),
     unit("unit written out", "radians/second", "did you mean 'rad/s'?"),
     unit("power without a sign", "s-1", "did you mean 's^-1'?"),
     unit("number as a factor of a unit", "2 rad/s"),

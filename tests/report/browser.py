@@ -34,7 +34,7 @@ def show(driver, path, size=DESKTOP):
         driver.get_log("browser")
     resize(driver, size)
     driver.get(path.as_uri())
-    WebDriverWait(driver, TIMEOUT).until(lambda d: d.execute_script(
+    WebDriverWait(driver, TIMEOUT, poll_frequency=0.05).until(lambda d: d.execute_script(
         "return window.report && [...document.querySelectorAll('.chart')].every((chart) => chart._fullLayout)"))
 
 

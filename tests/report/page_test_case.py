@@ -38,9 +38,13 @@ class PageTest(CommandTest):
         cls.driver = browser.start()
         cls.addClassCleanup(cls.driver.quit)
 
-    def show(self, *files, size=browser.DESKTOP, picture=None):
-        """Writes the page of some files, opens it, and looks for messages in the console."""
+    def show(self, *files, **details):
+        """Writes the page of some files and opens it."""
         self.run_well("report", *files, "-o", "page.html", "--force", "--quiet")
+        self.open_page(**details)
+
+    def open_page(self, size=browser.DESKTOP, picture=None):
+        """Opens the page, and looks for messages in the console."""
         browser.show(self.driver, self.folder / "page.html", size)
         if picture:
             time.sleep(0.3)  # for what is drawn once the layout has settled

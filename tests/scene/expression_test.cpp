@@ -222,6 +222,7 @@ TEST(Expression, MalformedTextsNameTheFaultAndItsPlace) {
       {"2 = 2", 2, "unexpected '='"},
       {".", 0, "no number"},
       {"1 + 1e999", 4, "no number"},
+      {"atan(1, 2)", 6, "unexpected ','"},
       {"1 + masss", 4, "unknown parameter 'masss'; did you mean 'mass'?"},
       {"temperature", 0, "unknown parameter 'temperature'; known: length, mass, x"},
       {"nan", 0, "unknown parameter"},

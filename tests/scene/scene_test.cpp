@@ -64,48 +64,6 @@ TEST(ParseScene, DerivedParametersMayStandBeforeWhatTheyUse) {
   EXPECT_EQ(declared(scene, "c"), 9.0);
 }
 
-struct Fault {
-  std::string text, message;
-};
-
-TEST(ParseScene, FaultsOfParametersNamePlaceAndParameter) {
-  const std::vector<Fault> table = {
-      {"[parameters]\nmass = 2\nk = \"masss * 2\"\n",
-       "test.toml:3:1: [parameters] k: in \"masss * 2\" at character 1: unknown parameter 'masss'; did you "
-       "mean "
-       "'mass'?"},
-      {"[parameters]\nk = \"2 *\"\n", "test.toml:2:1: [parameters] k: in \"2 *\" at character 4: "},
-      {"[parameters]\n  k = true\n",
-       "test.toml:2:3: [parameters] k: expected a number or an expression, found true or false"},
-      {"[parameters]\nk = [1, 2]\n", "test.toml:2:1: [parameters] k: expected a number or an expression"},
-      {"[parameters]\nk = { unit = \"m\" }\n", "test.toml:2:1: [parameters] k: expected value = ..."},
-      {"[parameters]\nk = { value = 1, units = \"m\" }\n",
-       "test.toml:2:18: [parameters] k: unknown key 'units'; did you mean 'unit'?"},
-      {"[parameters]\nk = { value = 1, unit = 2 }\n",
-       "test.toml:2:18: [parameters] k: unit: expected a text, found a number"},
-      {"[parameters]\nk = { value = 1, unit = \"furlong\" }\n",
-       "test.toml:2:18: [parameters] k: unit 'furlong' is not known"},
-      {"[parameters]\n\"spring-rate\" = 1\n", "test.toml:2:1: [parameters] spring-rate: a parameter's name"},
-      {"[parameters]\n2k = 1\n", "test.toml:2:1: [parameters] 2k: a parameter's name"},
-      {"[parameters]\na = \"b\"\nb = \"a\"\n",
-       "test.toml:2:1: [parameters] a: is defined through itself: a -> b -> a"},
-      {"parameters = 3\n", "test.toml:1:1: parameters: expected a table, found a number"},
-      {"[[parameters]]\nk = 1\n", "test.toml:1:3: parameters: expected a table, found an array"},
-      {"title = 3\n", "test.toml:1:1: title: expected a text, found a number"},
-      {"title = \n", "test.toml:1:"}};
-  for (const Fault& fault : table) {
-    const std::string message = input_error([&] { parsed(fault.text); });
-    EXPECT_TRUE(message.starts_with(fault.message)) << fault.text << " -> " << message;
-  }
-}
-
-TEST(ParseScene, ParametersThatAreNotFiniteAreRefusedAtTheirPlace) {
-  for (const std::string number : {"nan", "inf", "-inf"}) {
-    const std::string message = input_error([&] { parsed("[parameters]\nk = " + number + "\n"); });
-    EXPECT_TRUE(message.starts_with("test.toml:2:1: [parameters] k: ")) << number << " -> " << message;
-  }
-}
-
 const std::string family = "[matrix_family]\nM = [[[1]]]\nK = [[[1]]]\n";
 
 TEST(ParseScene, TracedParameterOfAMatrixFamilyIsImplied) {
@@ -152,13 +110,6 @@ TEST(Tables, AreTheTablesOfAnArrayInOrder) {
   EXPECT_EQ(tables(scene, "gravity").size(), 1U) << "a single table counts as one";
   EXPECT_TRUE(tables(scene, "damper").empty());
   EXPECT_TRUE(tables(parsed("rod = []\n"), "rod").empty());
-}
-
-TEST(Tables, RefuseWhatIsNoTable) {
-  EXPECT_EQ(input_error([] { tables(parsed("a = 1\nrod = 3\n"), "rod"); }),
-            "test.toml:2:1: rod: expected a table [rod], found a number");
-  EXPECT_EQ(input_error([] { tables(parsed("rod = [{ length = 1 }, 3]\n"), "rod"); }),
-            "test.toml:1:24: rod: expected tables [[rod]], found a number");
 }
 
 TEST(UnusedParameters, AreThoseThatNothingUses) {

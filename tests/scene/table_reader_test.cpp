@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "eigentrail/scene/scene.hpp"
 #include "scene/input_error.hpp"
 
@@ -90,51 +88,6 @@ TEST_F(TableReaderTest, MatricesAreListsOfRowsOfExpressions) {
   EXPECT_EQ(value(m[0][1][1]), 10.0);
   EXPECT_EQ(value(m[1][0][0]), 5.0);
   EXPECT_EQ(used, std::set<int>{2});
-}
-
-struct Fault {
-  std::string lines;
-  std::function<void(TableReader&)> read;
-  std::string message;  ///< the beginning of it
-};
-
-TEST_F(TableReaderTest, FaultsNameFileLineColumnAndKey) {
-  const auto expression = [](TableReader& r) { r.expression("x"); };
-  const auto vector = [](TableReader& r) { r.vector("x"); };
-  const auto place = [](TableReader& r) { r.name_or_position("x"); };
-  const auto text = [](TableReader& r) { r.text("x"); };
-  const auto matrices = [](TableReader& r) { r.matrices("x"); };
-  const std::string at_key = "test.toml:7:3: [element] x: ";
-  const std::string at_table = "test.toml:5:1: [element] x: ";
-  const std::vector<Fault> table = {
-      {"", expression, at_table + "is missing; expected a number or an expression"},
-      {"", vector, at_table + "is missing; expected three numbers"},
-      {"", place, at_table + "is missing; expected the name of a point, or a fixed place"},
-      {"", text, at_table + "is missing; expected a text"},
-      {"", matrices, at_table + "is missing; expected a list of matrices"},
-      {"\n  x = true\n", expression, at_key + "expected a number or an expression, found true or false"},
-      {"\n  x = [1]\n", expression, at_key + "expected a number or an expression, found an array"},
-      {"\n  x = nan\n", expression, at_key + "expected a finite number"},
-      {"\n  x = \"2 * masss\"\n", expression,
-       at_key + "in \"2 * masss\" at character 5: unknown parameter 'masss'; did you mean 'mass'?"},
-      {"\n  x = \"\"\n", expression, at_key + "in \"\" at character 1: expression ends"},
-      {"\n  x = \"(1\"\n", expression, at_key + "in \"(1\" at character 1: this '(' is never closed"},
-      {"\n  x = [1, 2]\n", vector,
-       at_key + "expected three numbers or expressions [x, y, z], found 2 of them"},
-      {"\n  x = [1, 2, 3, 4]\n", vector, at_key + "expected three numbers or expressions [x, y, z], found 4"},
-      {"\n  x = 3\n", vector, at_key + "expected three numbers or expressions [x, y, z], found a number"},
-      {"\n  x = [1, inf, 3]\n", vector, at_key + "expected a finite number"},
-      {"\n  x = [1, 2, \"z\"]\n", vector, at_key + "in \"z\" at character 1: unknown parameter 'z'"},
-      {"\n  x = 3\n", place, at_key + "expected three numbers or expressions"},
-      {"\n  x = 3\n", text, at_key + "expected a text, found a number"},
-      {"\n  x = 1\n", matrices, at_key + "expected a list of matrices"},
-      {"\n  x = [[1, 2], [3, 4]]\n", matrices, at_key + "expected a list of matrices"},
-      {"\n  x = [[[1, true]]]\n", matrices, at_key + "expected a number or an expression, found true"}};
-  for (const Fault& fault : table) {
-    TableReader& reader = read(fault.lines);
-    const std::string message = input_error([&] { fault.read(reader); });
-    EXPECT_TRUE(message.starts_with(fault.message)) << fault.lines << " -> " << message;
-  }
 }
 
 TEST_F(TableReaderTest, FinishRejectsKeysThatNobodyAskedForAndNamesTheNearest) {

@@ -6,29 +6,20 @@
 
 #include "eigentrail/stability/stable_ranges.hpp"
 #include "support/scenes.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::permanent_modes_test {
 namespace {
 
 using test::make_setting;
 
-struct Traced {
-  TraceResult result;
-  RecordedPath path;
+struct Traced : TracedPath {
   EigenvalueAccuracy accuracy;
 };
 
 Traced traced(const std::string& text, const OptionTexts& options = {}) {
   const test::Setting setting = make_setting(text, options);
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    return true;
-  };
-  Traced all;
-  all.result = trace(*setting.model, setting.options, observer);
-  all.path = recorder.path();
+  Traced all{trace_path(*setting.model, setting.options), {}};
   all.accuracy = {setting.options.tolerance, all.result.s_ref};
   return all;
 }

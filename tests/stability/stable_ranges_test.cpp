@@ -9,27 +9,17 @@
 #include "eigentrail/core/text.hpp"
 #include "hard_cases/catalogue.hpp"
 #include "support/scenes.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::stable_ranges_test {
 namespace {
 
-struct TracedRanges {
-  TraceResult result;
-  RecordedPath path;
+struct TracedRanges : TracedPath {
   std::vector<StableRange> ranges;
 };
 
 TracedRanges traced_ranges(const Setting& setting, int most_points = 0) {
-  TracedRanges traced;
-  PathRecorder recorder;
-  TraceObserver observer;
-  int points = 0;
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    return ++points != most_points;
-  };
-  traced.result = trace(*setting.model, setting.options, observer);
-  traced.path = recorder.path();
+  TracedRanges traced{trace_path(*setting.model, setting.options, most_points), {}};
   traced.ranges =
       stable_ranges(traced.path, traced.result.events, {setting.options.tolerance, traced.result.s_ref});
   return traced;

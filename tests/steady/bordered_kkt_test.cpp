@@ -3,40 +3,25 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 #include <random>
 
 #include "eigentrail/steady/path_plane.hpp"
+#include "steady/constrained_chain.hpp"
 
 namespace eigentrail::test::bordered_kkt_test {
 namespace {
 
 constexpr double tolerance = 1e-11;
-constexpr int n = 60, m = 25;
+constexpr int n = ConstrainedChain::n, m = ConstrainedChain::m;
 
-/// A symmetric stiffness of neighbours, constraints on three neighbouring coordinates each, and a load and
-/// changes of the constraints by the parameter.
-struct System {
-  Matrix K = Matrix::Zero(n, n), A = Matrix::Zero(m, n);
+/// A symmetric chain, with a load and changes of the constraints by the parameter.
+struct System : ConstrainedChain {
   Vector force, constraint;
   PathPlane plane;
 
-  System() {
-    std::mt19937_64 engine(5);
+  explicit System(std::mt19937_64&& engine = std::mt19937_64(5)) : ConstrainedChain(engine, 0.0) {
     std::uniform_real_distribution<double> number(0.5, 1.5);
-    for (int i = 0; i < n; ++i) {
-      K(i, i) += number(engine);
-      if (i == 0) continue;
-      const double k = number(engine);
-      K(i, i) += k;
-      K(i - 1, i - 1) += k;
-      K(i, i - 1) = K(i - 1, i) = -k;
-    }
-    for (int row = 0; row < m; ++row) {
-      for (int i = 0; i < 3; ++i) A(row, 2 * row + i) = number(engine) * (i == 1 ? -1.0 : 1.0);
-    }
     const auto random = [&](int size) {
       return Vector::NullaryExpr(size, [&] { return number(engine) - 1.0; });
     };
@@ -47,10 +32,9 @@ struct System {
 
   /// Motion that the constraints allow, with the least stiffness, which becomes zero: a fold.
   Vector soften() {
-    const Matrix Q2 = ConstraintFactorization(A).null_basis();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(Q2.transpose() * K * Q2));
-    K -= solver.eigenvalues()[0] * Matrix::Identity(n, n);
-    return Q2 * solver.eigenvectors().col(0);
+    const auto [stiffness, motion] = least();
+    K -= stiffness * Matrix::Identity(n, n);
+    return motion;
   }
 };
 

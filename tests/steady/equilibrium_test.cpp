@@ -1,109 +1,38 @@
-#include "eigentrail/steady/equilibrium.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>
 
-#include "support/scenes.hpp"
+#include "steady/trims.hpp"
 
 namespace eigentrail::test::equilibrium_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
 
-const std::string pushed_pendulum = R"(
-[parameters]
-g = 9.81
-m = 2.0
-length = 1.5
-p = 0.5
-[trace]
-parameter = "p"
-from = 0
-to = 0.9
-tolerance = 1e-9
-[gravity]
-acceleration = [0, 0, "-g"]
-[[point]]
-name = "bob"
-mass = "m"
-position = [0.01, 0, "-length"]
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = "length"
-[[fixed]]
-point = "bob"
-coordinate = "y"
-[[follower_force]]                    # tangential: the rod's direction turned by a quarter about -y
-point = "bob"
-from = [0, 0, 0]
-to = "bob"
-magnitude = "p * m * g"
-axis = [0, -1, 0]
-angle = "pi / 2"
-)";
+Setting pendulum() {
+  return pushed_pendulum({.mass = 2.0, .length = 1.5, .guess = 0.01});
+}
 
 TEST(Equilibrium, PushedPendulumStandsWhereSineEqualsTheForce) {
-  const Setting setting = make_setting(pushed_pendulum);
-  EvaluationCounts counts = setting.model->new_counts();
   for (const double p : {0.0, 0.3, 0.7, 0.95}) {
-    Vector parameters = setting.scene.parameters.declared_values();
-    parameters[setting.parameter("p")] = p;
-    const Equilibrium found = solve_equilibrium(
-        *setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {}, counts);
+    const Equilibrium found = at_rest(pendulum(), {{"p", p}});
     ASSERT_EQ(found.status, SteadyStatus::converged) << found.report.message;
     EXPECT_NEAR(std::abs(found.x[0]), 1.5 * p, tolerance * 10);
     EXPECT_NEAR(found.x[2], -1.5 * std::sqrt(1.0 - p * p), tolerance * 10);
   }
 }
 
-TEST(Equilibrium, PushedPendulumLociFollowTheClosedForm) {
-  const RecordedTrace recorded = record_trace(make_setting(pushed_pendulum));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  for (int i = 0; i <= 100; ++i) {
-    const double p = 0.9 * i / 100.0;
-    const double expected = std::sqrt(9.81 / 1.5 * std::sqrt(1.0 - p * p));
-    EXPECT_NEAR(recorded.eigenvalues_at(p)[0].imag(), expected, 4e-9 * expected);
-  }
-}
-
 TEST(Equilibrium, NoEquilibriumBeyondTheFoldIsReportedWithTheWorstEquation) {
-  const Setting setting = make_setting(pushed_pendulum);
-  EvaluationCounts counts = setting.model->new_counts();
-  Vector parameters = setting.scene.parameters.declared_values();
-  parameters[setting.parameter("p")] = 1.2;  // the fold is at 1
-  const Equilibrium found = solve_equilibrium(*setting.model, parameters,
-                                              setting.model->initial_guess(parameters), Vector(), {}, counts);
+  const Equilibrium found = at_rest(pendulum(), {{"p", 1.2}});  // the fold is at 1
   EXPECT_EQ(found.status, SteadyStatus::not_converged);
   EXPECT_NE(found.report.message.find("KINSOL"), std::string::npos);
   EXPECT_NE(found.report.message.find(found.report.worst_equation), std::string::npos);
   EXPECT_GT(found.report.residual, 1e-3);
 }
 
-/// The error of a series of order q in the predicted equilibrium is of order q + 1.
 TEST(Equilibrium, SeriesHaveTheirOrder) {
-  const Setting setting = make_setting(pushed_pendulum);
-  EvaluationCounts counts = setting.model->new_counts();
-  const int p_index = setting.parameter("p");
-  Vector parameters = setting.scene.parameters.declared_values();
-  const auto solve = [&](double p) {
-    parameters[p_index] = p;
-    return solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(),
-                             {}, counts);
-  };
-  const double p0 = 0.6;
-  const Equilibrium start = solve(p0);
-  VectorSeries direction = VectorSeries::Zero(parameters.size(), 2);
-  direction.col(0) = parameters;
-  direction(p_index, 1) = 1.0;
-  for (int order = 1; order <= 4; ++order) {
-    Path path;
-    ASSERT_FALSE(differentiate_equilibrium(*setting.model, start, direction, order, path, counts));
-    const auto miss = [&](double h) { return (evaluate_series(path.x, h) - solve(p0 + h).x).norm(); };
-    EXPECT_NEAR(std::log2(miss(0.04) / miss(0.02)), order + 1.0, 0.35) << "order " << order;
-  }
+  expect_orders_of_series(pendulum(), "p", 0.6, 0.04);
 }
 
 /// Rotating mass in other units: the same solution, scaled.
@@ -182,17 +111,21 @@ std::string rod_at_angle(double angle) {
 
 constexpr double redundancy_tolerance = 1e-9;
 
-TEST(Equilibrium, RodWrittenTwiceChangesNoEigenvalue) {
-  const RecordedTrace once = record_trace(make_setting(plain_pendulum + in_plane));
-  const RecordedTrace twice = record_trace(make_setting(plain_pendulum + in_plane + second_rod));
-  ASSERT_EQ(once.result.status, TraceStatus::completed);
-  ASSERT_EQ(twice.result.status, TraceStatus::completed) << twice.result.message;
-  EXPECT_EQ(twice.result.n_modes, 1);
-  for (const PathNode& node : twice.nodes) {
+/// The bob swings with one mode, whose frequency is that of its length.
+void expect_swing(const std::string& rods) {
+  const RecordedTrace recorded = record_trace(make_setting(plain_pendulum + rods));
+  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  ASSERT_EQ(recorded.result.n_modes, 1);
+  for (const PathNode& node : recorded.nodes) {
     const double expected = std::sqrt(9.81 / node.p);
-    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected);
+    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected) << "at " << node.p;
     EXPECT_NEAR(node.s(0, 1).imag(), -0.5 * expected / node.p, redundancy_tolerance * expected / node.p);
   }
+}
+
+TEST(Equilibrium, RodWrittenTwiceChangesNoEigenvalue) {
+  expect_swing(in_plane);
+  expect_swing(in_plane + second_rod);
 }
 
 class RodsAtAnAngle : public testing::TestWithParam<double> {};
@@ -200,24 +133,11 @@ class RodsAtAnAngle : public testing::TestWithParam<double> {};
 TEST_P(RodsAtAnAngle, LeaveTheSwingInTheirCommonPlaneUnchanged) {
   // Both rods hinge on the y axis, so the bob swings about it with the same length. The second rod takes away
   // the freedom along y, whatever the angle.
-  const RecordedTrace recorded = record_trace(make_setting(plain_pendulum + rod_at_angle(GetParam())));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  ASSERT_EQ(recorded.result.n_modes, 1);
-  for (const PathNode& node : recorded.nodes) {
-    const double expected = std::sqrt(9.81 / node.p);
-    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected) << "at " << node.p;
-  }
+  expect_swing(rod_at_angle(GetParam()));
 }
 
 TEST_P(RodsAtAnAngle, AreOneConstraintTooManyInAPlane) {
-  const RecordedTrace recorded =
-      record_trace(make_setting(plain_pendulum + in_plane + rod_at_angle(GetParam())));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  ASSERT_EQ(recorded.result.n_modes, 1);
-  for (const PathNode& node : recorded.nodes) {
-    const double expected = std::sqrt(9.81 / node.p);
-    EXPECT_NEAR(node.s(0, 0).imag(), expected, redundancy_tolerance * expected) << "at " << node.p;
-  }
+  expect_swing(in_plane + rod_at_angle(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, RodsAtAnAngle,
@@ -228,13 +148,9 @@ INSTANTIATE_TEST_SUITE_P(Angles, RodsAtAnAngle,
 TEST(Equilibrium, BetweenNearlyParallelRodsIsFoundAtEveryLength) {
   for (const double angle : {1e-7, 1e-8, 1e-9}) {
     const Setting setting = make_setting(plain_pendulum + rod_at_angle(angle));
-    EvaluationCounts counts = setting.model->new_counts();
-    Vector parameters = setting.scene.parameters.declared_values();
     for (int i = 0; i < 200; ++i) {
       const double length = 0.5 + 0.0173 * i;
-      parameters[setting.parameter("length")] = length;
-      const Equilibrium found = solve_equilibrium(
-          *setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {}, counts);
+      const Equilibrium found = at_rest(setting, {{"length", length}});
       ASSERT_EQ(found.status, SteadyStatus::converged)
           << angle << ' ' << length << ' ' << found.report.message;
       EXPECT_NEAR(found.x[2], -length, 1e-12);

@@ -14,8 +14,7 @@ namespace eigentrail::test::error_oriented_newton_test {
 namespace {
 
 TEST(ErrorOrientedNewton, DampsWherePlainNewtonDiverges) {
-  const NonlinearProblem problem =
-      scalar_problem([](double u) { return std::atan(u); }, [](double u) { return 1.0 / (1.0 + u * u); });
+  const NonlinearProblem problem = arctangent();
   Vector u{{20.0}};
   Vector whole_steps = u;
   EXPECT_FALSE(solve_error_oriented(problem, 1, {.least_damping = 1.0}, whole_steps).converged);
@@ -24,11 +23,9 @@ TEST(ErrorOrientedNewton, DampsWherePlainNewtonDiverges) {
 }
 
 TEST(ErrorOrientedNewton, GivesAReasonWhenThereIsNoRoot) {
-  const NonlinearProblem problem =
-      scalar_problem([](double u) { return u * u + 1.0; }, [](double u) { return 2.0 * u; });
   Vector u{{1.0}};
   const NonlinearResult result =
-      solve_error_oriented(problem, 1, {.tolerance = 1e-10, .max_iterations = 50}, u);
+      solve_error_oriented(square_and_one(), 1, {.tolerance = 1e-10, .max_iterations = 50}, u);
   EXPECT_FALSE(result.converged);
   EXPECT_FALSE(result.message.empty());
 }

@@ -52,12 +52,8 @@ struct HeavyCantilever {
       : setting(scene_setting("rotating_cantilever", {},
                               {{"elements     = 10", elements},
                                {"lag     = 20.0", "lag = 20.0\nweight = " + std::to_string(weight)},
-                               {"[[beam]] ", "[gravity]\nacceleration = [0, 0, \"-weight\"]\n[[beam]] "}})) {
-    EvaluationCounts counts = setting.model->new_counts();
-    const Vector parameters = setting.problem().parameters;
-    found = solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(),
-                              SteadyOptions(), counts);
-  }
+                               {"[[beam]] ", "[gravity]\nacceleration = [0, 0, \"-weight\"]\n[[beam]] "}})),
+        found(at_rest(setting)) {}
 
   /// Position of the last node.
   Vector tip() const { return found.x.segment(setting.model->n_coordinates() - 12, 3); }

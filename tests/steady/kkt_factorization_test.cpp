@@ -2,18 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "support/families.hpp"
 
 namespace eigentrail::test::kkt_factorization_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
-
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
-}
 
 struct System {
   Matrix K = random_matrix(7, 7, 1);

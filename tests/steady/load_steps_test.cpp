@@ -14,8 +14,7 @@ namespace eigentrail::test::load_steps_test {
 namespace {
 
 TEST(LoadSteps, ArriveWhereWholeStepsOfNewtonsMethodDiverge) {
-  const NonlinearProblem problem =
-      scalar_problem([](double u) { return std::atan(u); }, [](double u) { return 1.0 / (1.0 + u * u); });
+  const NonlinearProblem problem = arctangent();
   Vector u{{20.0}}, rival = u;
   EXPECT_FALSE(solve_error_oriented(problem, 1, {.least_damping = 1.0}, rival).converged);
   EXPECT_TRUE(solve_in_load_steps(problem, 1, u).converged);
@@ -24,10 +23,8 @@ TEST(LoadSteps, ArriveWhereWholeStepsOfNewtonsMethodDiverge) {
 
 TEST(LoadSteps, SayHowMuchOfTheLoadIsBorneWhereThereIsNoRoot) {
   // u^2 + 1 = 2 (1 - t) has solutions up to t = 1/2.
-  const NonlinearProblem problem =
-      scalar_problem([](double u) { return u * u + 1.0; }, [](double u) { return 2.0 * u; });
   Vector u{{1.0}};
-  const NonlinearResult result = solve_in_load_steps(problem, 1, u);
+  const NonlinearResult result = solve_in_load_steps(square_and_one(), 1, u);
   EXPECT_FALSE(result.converged);
   EXPECT_NE(result.message.find("beyond 0.49"), std::string::npos) << result.message;
   EXPECT_LT(std::abs(u[0]), 0.1);

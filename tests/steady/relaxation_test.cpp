@@ -126,11 +126,7 @@ length = 1.5
 TEST(Relaxation, SlowBladeIsFoundFromItsGuess) {
   for (const double omega : {5.0, 5.2, 5.5, 5.8, 6.0}) {
     const Setting setting = scene_setting("rotating_mass");
-    EvaluationCounts counts = setting.model->new_counts();
-    Vector parameters = setting.scene.parameters.declared_values();
-    parameters[setting.parameter("omega")] = omega;
-    const Equilibrium found = solve_equilibrium(
-        *setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {}, counts);
+    const Equilibrium found = at_rest(setting, {{"omega", omega}});
     ASSERT_EQ(found.status, SteadyStatus::converged) << omega << ": " << found.report.message;
     EXPECT_LT(found.report.residual, 1e-12) << omega;
   }

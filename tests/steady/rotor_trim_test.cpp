@@ -5,11 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "eigentrail/core/errors.hpp"
 #include "eigentrail/modes/spectrum.hpp"
-#include "eigentrail/steady/equilibrium.hpp"
+#include "scene/input_error.hpp"
+#include "steady/trims.hpp"
 #include "support/resumed.hpp"
-#include "support/scenes.hpp"
 
 namespace eigentrail::test::rotor_trim_test {
 namespace {
@@ -107,25 +106,6 @@ free_length = 1
 std::string traced(const std::string& parameter, double from, double to) {
   return "[trace]\nparameter = \"" + parameter + "\"\nfrom = " + std::to_string(from) +
          "\nto = " + std::to_string(to) + "\ntolerance = 1e-9\n";
-}
-
-std::string trim(const std::string& unknown, const std::string& condition) {
-  return "\n[[trim]]\nunknown = \"" + unknown + "\"\ncondition = \"" + condition + "\"\n";
-}
-
-struct Solved {
-  Equilibrium at;
-  Vector unknowns;
-};
-
-Solved solve(const Setting& setting, const std::string& parameter, double value) {
-  EvaluationCounts counts = setting.model->new_counts();
-  Vector all = setting.scene.parameters.declared_values();
-  all[setting.parameter(parameter)] = value;
-  Solved result{
-      solve_equilibrium(*setting.model, all, setting.model->initial_guess(all), Vector(), {}, counts), {}};
-  result.unknowns = result.at.lambda.tail(setting.model->n_trims());
-  return result;
 }
 
 /// Of the air on a stiff blade per sin(pitch): 1/2 rho c a times the integral of (omega r)^2.
@@ -228,33 +208,11 @@ TEST(RotorTrim, LociAreThoseWithTheUnknownsAsNumbers) {
   }
 }
 
-/// The error of a series of order q is of order q + 1, in the coordinates and in the unknowns.
 TEST(RotorTrim, SeriesHaveTheirOrder) {
   const Setting setting =
       make_setting(rotor("") + traced("weight", 1000, 3000) + trim("pitch", "thrust(air) = weight") +
                    trim("omega", "moment(spring) = -(1 + pitch / radian) * 200 * spring * radian / 1e4"));
-  EvaluationCounts counts = setting.model->new_counts();
-  const double p0 = 2000.0;
-  const Solved start = solve(setting, "weight", p0);
-  ASSERT_EQ(start.at.status, SteadyStatus::converged) << start.at.report.message;
-  Vector all = setting.scene.parameters.declared_values();
-  all[setting.parameter("weight")] = p0;
-  VectorSeries direction = VectorSeries::Zero(all.size(), 2);
-  direction.col(0) = all;
-  direction(setting.parameter("weight"), 1) = 1.0;
-  for (int order = 1; order <= 4; ++order) {
-    Path path;
-    ASSERT_FALSE(differentiate_equilibrium(*setting.model, start.at, direction, order, path, counts));
-    const auto misses = [&](double h) {
-      const Solved there = solve(setting, "weight", p0 + h);
-      return std::pair((evaluate_series(path.x, h) - there.at.x).norm(),
-                       (evaluate_series(path.lambda, h).tail(2) - there.unknowns).norm());
-    };
-    const auto [x, u] = misses(400.0);
-    const auto [x_half, u_half] = misses(200.0);
-    EXPECT_NEAR(std::log2(x / x_half), order + 1.0, 0.4) << "order " << order;
-    EXPECT_NEAR(std::log2(u / u_half), order + 1.0, 0.4) << "order " << order;
-  }
+  expect_orders_of_series(setting, "weight", 2000.0, 400.0, 0.4);
 }
 
 /// The rows and columns that the solver uses, by central differences. The hub stays on its axis, which other
@@ -359,12 +317,10 @@ TEST(RotorTrim, MistakesAreNamed) {
                              "are not on the blade of [rotor]; expected force(mount air, z)"},
                         Case{"", "thrust(air, z) = weight", "expected one name in the brackets"},
                         Case{"", "thrust(air) = torque", "N m, but N is expected"}}) {
-    try {
+    const std::string message = input_error([&] {
       (void)make_setting(rotor() + c.more + traced("weight", 1000, 3000) + trim("pitch", c.condition));
-      ADD_FAILURE() << c.condition;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
-    }
+    });
+    EXPECT_TRUE(contains(message, c.message)) << message;
   }
 }
 

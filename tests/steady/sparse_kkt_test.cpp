@@ -3,44 +3,26 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cmath>
 #include <random>
 
-#include "eigentrail/steady/kkt_factorization.hpp"
+#include "steady/constrained_chain.hpp"
 #include "steady/sparse_bordered_kkt.hpp"
 
 namespace eigentrail::test::sparse_kkt_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
-constexpr int n = 60, m = 25;
+constexpr int n = ConstrainedChain::n, m = ConstrainedChain::m;
 
-/// Springs between neighbours, with forces that circulate; constraints on three neighbouring coordinates
-/// each.
-struct System {
-  Matrix K = Matrix::Zero(n, n);
-  Matrix A = Matrix::Zero(m, n);
-
-  explicit System(double stiffness = 1.0) {
-    std::mt19937_64 engine(3);
-    std::uniform_real_distribution<double> number(0.5, 1.5);
-    for (int i = 0; i < n; ++i) {
-      K(i, i) += number(engine);
-      if (i == 0) continue;
-      const double k = number(engine);
-      K(i, i) += k;
-      K(i - 1, i - 1) += k;
-      K(i, i - 1) -= k + 0.2;
-      K(i - 1, i) -= k - 0.2;
-    }
+struct System : ConstrainedChain {
+  explicit System(double stiffness = 1.0, std::mt19937_64&& engine = std::mt19937_64(3))
+      : ConstrainedChain(engine, 0.2) {
     K *= stiffness;
-    for (int row = 0; row < m; ++row) {
-      for (int i = 0; i < 3; ++i) A(row, 2 * row + i) = number(engine) * (i == 1 ? -1.0 : 1.0);
-    }
   }
+  void make_symmetric() { K = (0.5 * (K + K.transpose())).eval(); }
 };
 
 SystemMatrix sparse(const Matrix& values) {
@@ -73,10 +55,8 @@ TEST(SparseKkt, AgreesWithTheNullSpaceRoute) {
 TEST(SparseKkt, ReciprocalConditionFallsLikeTheLeastTangentStiffness) {
   // If mu is an eigenvalue of Q2^T K Q2, K - mu I is singular on the null space of the constraints.
   System system;
-  system.K = (0.5 * (system.K + system.K.transpose())).eval();
-  const Matrix Q2 = ConstraintFactorization(system.A).null_basis();
-  const double mu =
-      Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(Q2.transpose() * system.K * Q2)).eigenvalues()[0];
+  system.make_symmetric();
+  const double mu = system.least().first;
   for (const double distance : {1e-2, 1e-5, 1e-8}) {
     const Matrix K = system.K - (mu - distance) * Matrix::Identity(n, n);
     const KktFactorization kkt(sparse(K), sparse(system.A));
@@ -87,7 +67,7 @@ TEST(SparseKkt, ReciprocalConditionFallsLikeTheLeastTangentStiffness) {
 TEST(SparseKkt, SingularTangentStiffnessIsLeftToTheNullSpaceRoute) {
   System system;
   const Vector free = ConstraintFactorization(system.A).null_basis().col(0);
-  system.K = (0.5 * (system.K + system.K.transpose())).eval();
+  system.make_symmetric();
   const Matrix P = Matrix::Identity(n, n) - free * free.transpose();
   system.K = P * system.K * P;  // no force along a motion that the constraints allow
   EXPECT_FALSE(SparseKkt::factor(sparse(system.K).sparse(), sparse(system.A).sparse()));
@@ -139,11 +119,8 @@ struct Vanishing {
   Vector kernel;
 
   Vanishing() {
-    system.K = (0.5 * (system.K + system.K.transpose())).eval();
-    const Matrix Q2 = ConstraintFactorization(system.A).null_basis();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(Q2.transpose() * system.K * Q2));
-    least = solver.eigenvalues()[0];
-    kernel = Q2 * solver.eigenvectors().col(0);
+    system.make_symmetric();
+    std::tie(least, kernel) = system.least();
   }
   SparseMatrix K(double shift) const {
     return sparse(system.K - (least + shift) * Matrix::Identity(n, n)).sparse();

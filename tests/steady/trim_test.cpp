@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "eigentrail/core/errors.hpp"
-#include "eigentrail/steady/equilibrium.hpp"
 #include "eigentrail/steady/path_plane.hpp"
+#include "scene/input_error.hpp"
+#include "steady/trims.hpp"
 #include "support/resumed.hpp"
-#include "support/scenes.hpp"
 
 namespace eigentrail::test::trim_test {
 namespace {
@@ -57,10 +56,6 @@ tolerance = 1e-9
          trims;
 }
 
-std::string trim(const std::string& unknown, const std::string& condition) {
-  return "\n[[trim]]\nunknown = \"" + unknown + "\"\ncondition = \"" + condition + "\"\n";
-}
-
 std::string along(const std::string& parameter, double from, double to) {
   return "parameter = \"" + parameter + "\"\nfrom = " + std::to_string(from) +
          "\nto = " + std::to_string(to) + "\n";
@@ -73,23 +68,6 @@ double frequency(double angle) {
 
 double holding_torque(double angle) {
   return mass * g * arm * std::sin(angle) + stiffness * angle;
-}
-
-struct Solved {
-  Equilibrium at;
-  Vector unknowns;
-};
-
-/// The equilibrium from the scene's guess.
-Solved solve(const Setting& setting, const std::string& parameter, double value) {
-  EvaluationCounts counts = setting.model->new_counts();
-  Vector parameters = setting.scene.parameters.declared_values();
-  parameters[setting.parameter(parameter)] = value;
-  Solved result{solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters),
-                                  Vector(), {}, counts),
-                {}};
-  result.unknowns = result.at.lambda.tail(setting.model->n_trims());
-  return result;
 }
 
 TEST(Trim, TorqueHoldsAPendulumAtAnAngle) {
@@ -231,33 +209,11 @@ TEST(Trim, LiftOfStripsCarriesAWeight) {
   }
 }
 
-/// The error of a series of order q is of order q + 1, in the coordinates and in the unknowns.
 TEST(Trim, SeriesHaveTheirOrder) {
   const Setting setting = make_setting(
       pendulum(along("reach", 0.1, 0.6), trim("torque", "position(bob.tip, x) = reach") +
                                              trim("push", "force(hinge, x) = -(1 + torque/moment) * load")));
-  EvaluationCounts counts = setting.model->new_counts();
-  const double p0 = 0.35;
-  const Solved start = solve(setting, "reach", p0);
-  ASSERT_EQ(start.at.status, SteadyStatus::converged) << start.at.report.message;
-  Vector parameters = setting.scene.parameters.declared_values();
-  parameters[setting.parameter("reach")] = p0;
-  VectorSeries direction = VectorSeries::Zero(parameters.size(), 2);
-  direction.col(0) = parameters;
-  direction(setting.parameter("reach"), 1) = 1.0;
-  for (int order = 1; order <= 4; ++order) {
-    Path path;
-    ASSERT_FALSE(differentiate_equilibrium(*setting.model, start.at, direction, order, path, counts));
-    const auto misses = [&](double h) {
-      const Solved there = solve(setting, "reach", p0 + h);
-      return std::pair((evaluate_series(path.x, h) - there.at.x).norm(),
-                       (evaluate_series(path.lambda, h).tail(2) - there.unknowns).norm());
-    };
-    const auto [x, u] = misses(0.04);
-    const auto [x_half, u_half] = misses(0.02);
-    EXPECT_NEAR(std::log2(x / x_half), order + 1.0, 0.35) << "order " << order;
-    EXPECT_NEAR(std::log2(u / u_half), order + 1.0, 0.35) << "order " << order;
-  }
+  expect_orders_of_series(setting, "reach", 0.35, 0.04);
 }
 
 /// Sensitivities at an event take the factorization of the point there, which may have been solved for on a
@@ -536,12 +492,8 @@ TEST(Trim, MistakesAreNamed) {
                         Case{trim("torque", "force(air, z) = load"), "no joint or strips is called 'air'"},
                         Case{trim("torque", "thrust(disc) = load"), "no [[inflow]] is called 'disc'"},
                         Case{trim("torque", "position(bob.top, x) = reach"), "'bob.top'"}}) {
-    try {
-      (void)make_setting(pendulum(trace, c.trims));
-      ADD_FAILURE() << c.trims;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
-    }
+    const std::string message = input_error([&] { (void)make_setting(pendulum(trace, c.trims)); });
+    EXPECT_TRUE(contains(message, c.message)) << message;
   }
 }
 
@@ -549,13 +501,9 @@ TEST(Trim, FamilyOfMatricesIsRefused) {
   const std::string family =
       "[parameters]\nq = 1\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [[[1]]]\nK = "
       "[[[1]], [[1]]]\n";
-  try {
-    (void)make_setting(family + trim("q", "angle(hinge) = 1"));
-    ADD_FAILURE();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("have no equilibrium to trim"), std::string::npos)
-        << error.what();
-  }
+  const std::string message =
+      input_error([&] { (void)make_setting(family + trim("q", "angle(hinge) = 1")); });
+  EXPECT_TRUE(contains(message, "have no equilibrium to trim")) << message;
 }
 
 }  // namespace

@@ -12,11 +12,22 @@ inline Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt1993
   return Matrix::NullaryExpr(rows, columns, [&] { return normal(engine); });
 }
 
+/// From a seed.
+inline Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  return random_matrix(rows, columns, engine);
+}
+
 inline ComplexMatrix random_complex(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& engine) {
   ComplexMatrix B(rows, columns);
   B.real() = random_matrix(rows, columns, engine);
   B.imag() = random_matrix(rows, columns, engine);
   return B;
+}
+
+inline ComplexMatrix random_complex(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  return random_complex(rows, columns, engine);
 }
 
 /// Polynomial family with a well-conditioned mass, gyroscopic and circulatory parts: series of length 4 about

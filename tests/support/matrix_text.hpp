@@ -1,4 +1,4 @@
-// Matrices as a scene has them.
+// Matrices and matrix families as a scene has them.
 #pragma once
 
 #include <string>
@@ -22,6 +22,21 @@ inline std::string text(const std::vector<Matrix>& coefficients) {
     all += (all.empty() ? "[" : ", [") + rows + "]";
   }
   return "[" + all + "]";
+}
+
+/// Coefficients by powers of the parameter p. C may be empty, and A: no constraints.
+struct FamilyMatrices {
+  std::vector<Matrix> M, C, K, A = {};
+};
+
+/// The scene of a matrix family, traced from one p to another.
+inline std::string family_scene(const FamilyMatrices& family, double from, double to) {
+  std::string scene = "[trace]\nparameter = \"p\"\nfrom = " + exact_text(from) + "\nto = " + exact_text(to) +
+                      "\n[matrix_family]\n";
+  for (const auto& [key, coefficients] :
+       {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"A", &family.A}})
+    if (!coefficients->empty()) scene += std::string(key) + " = " + text(*coefficients) + "\n";
+  return scene;
 }
 
 }  // namespace eigentrail::test

@@ -65,6 +65,14 @@ angle = "pi / 2"
   return make_setting(text.str(), overrides);
 }
 
+Equilibrium at_rest(const Setting& setting, const std::vector<std::pair<std::string, double>>& values) {
+  EvaluationCounts counts = setting.model->new_counts();
+  Vector parameters = setting.scene.parameters.declared_values();
+  for (const auto& [name, value] : values) parameters[setting.parameter(name)] = value;
+  return solve_equilibrium(*setting.model, parameters, setting.model->initial_guess(parameters), Vector(), {},
+                           counts);
+}
+
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts) {
   const Vector guess = problem.model.initial_guess(parameters_at(problem, p));
   PathPoint point = reduce_at(problem, p, {guess, Vector()}, Matrix(), counts);

@@ -35,6 +35,9 @@ struct PushedPendulum {
 };
 Setting pushed_pendulum(const PushedPendulum& pendulum, const OptionTexts& overrides = {});
 
+/// The equilibrium from the scene's guess where parameters have these values, the others those of the scene.
+Equilibrium at_rest(const Setting& setting, const std::vector<std::pair<std::string, double>>& values = {});
+
 /// A point of the path with all modes, computed from the scene's own guess and the full spectrum; `order` of
 /// the following differentiation.
 PathPoint point_from_guess(const PathProblem& problem, double p, RunCounts& counts);
