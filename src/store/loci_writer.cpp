@@ -281,7 +281,7 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
   update(checkpoint.so_far(), status);
   std::string image = tables.file().image();
   const std::string state =
-      marked_data(state_mark, image, packed(checkpoint.save(), packed(last_shapes, motions, events)));
+      marked_data(image, packed(checkpoint.save(), packed(last_shapes, motions, events)));
   save(std::move(image), state);
   is_saved = true;
   last_saved = Clock::now();
