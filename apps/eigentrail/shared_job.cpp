@@ -33,19 +33,6 @@ bool has_ended(const SharedJob& job, const OutputChoice& output, const Team& tea
   return true;
 }
 
-/// What the run with this output, or this part of it, has left, and the pieces of parts that are joined. Says
-/// on the process that leads where it was computed with another kernel of BLAS.
-std::unique_ptr<UnfinishedRun> unfinished_run(const SharedJob& job, OutputChoice& output, const Team& team) {
-  const Before before = output.force ? Before::discard : output.resume ? Before::resume : Before::refuse;
-  auto unfinished = std::make_unique<UnfinishedRun>(output.path, job.run, before);
-  unfinished->take(job.known);
-  output.force = output.force || unfinished->goes_on();
-  if (team.leads() && !unfinished->other_kernel().empty())
-    warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
-         "); the last digits differ from those of a run on one machine");
-  return unfinished;
-}
-
 /// Ends a run whose pieces have all been computed: `write` writes the output and returns the exit code. What
 /// was saved of the run stays if the output cannot be written, and goes if there is none for this input.
 int end_run(UnfinishedRun& unfinished, const std::function<int()>& write) try {
@@ -66,11 +53,18 @@ int finish_part(const OutputChoice& output, const SharedRun& run, UnfinishedRun&
   return done;
 }
 
-/// What is saved of a run that writes an output, which is checked; null for others.
+/// What a run that writes an output, which is checked, has left, and the pieces of parts that are joined;
+/// null for other runs. Says on the process that leads where it was computed with another kernel of BLAS.
 std::unique_ptr<UnfinishedRun> saved_pieces(const SharedJob& job, OutputChoice& output, const Team& team) {
   if (!job.writes) return nullptr;
-  auto unfinished = unfinished_run(job, output, team);
+  const Before before = output.force ? Before::discard : output.resume ? Before::resume : Before::refuse;
+  auto unfinished = std::make_unique<UnfinishedRun>(output.path, job.run, before);
+  unfinished->take(job.known);
+  output.force = output.force || unfinished->goes_on();
   if (!team.leads()) return unfinished;
+  if (!unfinished->other_kernel().empty())
+    warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
+         "); the last digits differ from those of a run on one machine");
   job.check_more_files();
   check_new_output(output.path, output.force, output.part ? part_of_a_run : job.format);
   return unfinished;
