@@ -4,10 +4,10 @@
 #include "commands.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
-#include "frequency_unit.hpp"
 #include "output.hpp"
-#include "printed_format.hpp"
+#include "output_choice.hpp"
 #include "ranges.hpp"
+#include "scene/frequency_unit.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
@@ -105,7 +105,7 @@ int run_eval(const EvalArguments& arguments) {
   if (arguments.format) {
     print(records_of(loci, values), arguments.format);
   } else {
-    print_for_people(loci, values, frequency_unit(parameter));
+    print_for_people(loci, values, frequency_unit(parameter.unit));
   }
   return done;
 }

@@ -7,7 +7,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
-#include "printed_format.hpp"
+#include "output_choice.hpp"
 
 namespace eigentrail::app {
 namespace {

@@ -261,7 +261,7 @@ class Session {
   int size() const { return size_; }
 
  private:
-  MpiSession mpi_;
+  MpiSession mpi_{MPI_THREAD_FUNNELED};
   int rank_ = 0, size_ = 1;
 };
 

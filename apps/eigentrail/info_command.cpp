@@ -10,6 +10,7 @@
 #include "output.hpp"
 #include "ranges.hpp"
 #include "records.hpp"
+#include "report/file_data.hpp"
 #include "samples_info.hpp"
 
 namespace eigentrail::app {
@@ -147,7 +148,7 @@ void print_json(const LociFile& loci) {
   }
   info["certified_share"] = certified;
   info["events"] = loci.events.size();
-  if (loci.ranges) info["stable_ranges"] = ranges_json(*loci.ranges);
+  if (loci.ranges) info["stable_ranges"] = ranges_data(*loci.ranges);
   info["attributes"] = loci.attributes;
   print_text_of(info);
 }

@@ -13,12 +13,13 @@ struct MergeArguments {
   OutputChoice output;
 };
 
-int run_merge(const MergeArguments& arguments, Team& team) {
+int run_merge(MergeArguments& arguments, Team& team) {
   std::vector<PartFile> parts;
   for (const std::string& file : arguments.files) parts.push_back(read_part_file(file));
-  const std::vector<std::string> pieces = joined(parts);
+  PiecesByName pieces = joined(parts);
   const PartFile& first = parts.front();
-  const SharedRun& run = first.run;
+  SharedRun run = first.run;
+  run.part.reset();
   const auto other = std::find_if(parts.begin(), parts.end(), [&first](const PartFile& part) {
     return part.blas_kernel != first.blas_kernel;
   });
@@ -27,8 +28,10 @@ int run_merge(const MergeArguments& arguments, Team& team) {
          " with " + first.blas_kernel + "; the last digits differ from those of a run on one machine");
   for (const auto& [command, job_of_parts] :
        {std::pair{"map", &map_of_parts}, {"boundary", &boundary_of_parts}, {"sweep", &sweep_of_parts}}) {
-    if (run.command == command)
-      return finish_joined(job_of_parts(run, arguments.output, team), pieces, arguments.output, team);
+    if (run.command != command) continue;
+    SharedJob job = job_of_parts(run, arguments.output, team);
+    job.known = std::move(pieces);
+    return carry_out(std::move(job), arguments.output, team);
   }
   throw InputError(first.path + ": is a part of '" + run.command + "', which this version cannot join");
 }
@@ -41,7 +44,7 @@ void add_merge(CLI::App& program, int& exit_code) {
       "join the parts of a map, boundary or sweep that were computed with --part");
   command->add_option("FILES", arguments->files, "the files of all parts, in any order")->required();
   add_output(*command, arguments->output, "file to write")->required();
-  add_output_flags(*command, arguments->output, {.resume = ""});
+  add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n"
       "  eigentrail merge part_1.h5 part_2.h5 -o drag.h5\n\n"

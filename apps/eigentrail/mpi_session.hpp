@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 
 namespace eigentrail::app {
@@ -19,10 +20,14 @@ inline void leave_out_the_network_on_one_machine() {
 
 class MpiSession {
  public:
-  MpiSession() {
+  /// `threads`: what MPI must allow them. Throws std::runtime_error if it does not.
+  explicit MpiSession(int threads) {
     leave_out_the_network_on_one_machine();
     int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    MPI_Init_thread(nullptr, nullptr, threads, &provided);
+    if (provided >= threads) return;
+    MPI_Finalize();
+    throw std::runtime_error("MPI: expected one that several threads may call (MPI_THREAD_MULTIPLE)");
   }
   ~MpiSession() { MPI_Finalize(); }
   MpiSession(const MpiSession&) = delete;

@@ -38,6 +38,12 @@ void add_part(CLI::App& command, OutputChoice& output) {
       "i/N: compute part i of N only and write it to a file of its own; eigentrail merge joins the parts");
 }
 
+std::array<CLI::Option*, 2> add_formats(CLI::App& command, PrintedFormat& format,
+                                        const std::string& csv_help) {
+  CLI::Option* csv = command.add_flag("--csv", format.csv, csv_help);
+  return {csv, command.add_flag("--json", format.json, "print a list of objects")->excludes(csv)};
+}
+
 OutputFormat hdf5_format(const std::string& attribute, const std::string& name) {
   return {name, [attribute](const std::string& path) { return may_be_replaced(path, attribute); }};
 }

@@ -1,13 +1,15 @@
-// Where a command writes its output, and what it may replace there.
+// Where and how a command writes its output, and what it may replace there.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "eigentrail/core/workers.hpp"
 #include "eigentrail/store/output_file.hpp"
+#include "records.hpp"
 
 namespace eigentrail::app {
 
@@ -45,6 +47,10 @@ CLI::Option* add_output_flags(CLI::App& command, OutputChoice& output, const Out
 
 /// Adds --part.
 void add_part(CLI::App& command, OutputChoice& output);
+
+/// Adds --csv and --json, which are returned; one excludes the other.
+std::array<CLI::Option*, 2> add_formats(CLI::App& command, PrintedFormat& format,
+                                        const std::string& csv_help);
 
 /// A format of output files.
 struct OutputFormat {

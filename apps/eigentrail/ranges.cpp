@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "eigentrail/core/text.hpp"
 #include "output.hpp"
@@ -15,12 +14,6 @@ std::string end_text(const RangeEnd& end, Stability kind) {
   if (end.mode >= 0) text += ", mode " + std::to_string(end.mode + 1);
   const bool at_margin = kind == Stability::stable && end.margin != 0.0;
   return at_margin ? text + ", margin " + rounded(end.margin, 4) : text;
-}
-
-nlohmann::ordered_json end_json(const RangeEnd& end) {
-  nlohmann::ordered_json json{{"parameter", end.p}, {"cause", end.cause}, {"margin", end.margin}};
-  json["mode"] = end.mode < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(end.mode + 1);
-  return json;
 }
 
 }  // namespace
@@ -74,20 +67,6 @@ void print_ranges(const std::vector<StableRange>& ranges, const std::string& par
                     margins});
   }
   print_table(rows);
-}
-
-nlohmann::ordered_json ranges_json(const std::vector<StableRange>& ranges) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const StableRange& range : ranges) {
-    list.push_back({{"kind", stability_name(range.kind)},
-                    {"whole_model", range.whole},
-                    {"from", end_json(range.from)},
-                    {"to", end_json(range.to)},
-                    {"least_margin", range.least_margin},
-                    {"largest_margin", range.largest_margin},
-                    {"largest_at", range.largest_at}});
-  }
-  return list;
 }
 
 }  // namespace eigentrail::app

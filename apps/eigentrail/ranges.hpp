@@ -1,7 +1,6 @@
-// Prints stable ranges as text and JSON.
+// Prints stable ranges.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,5 @@ void print_permanent(const std::vector<Permanence>& all, const std::vector<std::
 
 /// Prints the ranges, one line each, under a heading.
 void print_ranges(const std::vector<StableRange>& ranges, const std::string& parameter);
-
-/// A list of objects with kind, from, to and margins. from and to are objects with parameter, cause, margin
-/// and mode (from 1; null if none is known).
-nlohmann::ordered_json ranges_json(const std::vector<StableRange>& ranges);
 
 }  // namespace eigentrail::app

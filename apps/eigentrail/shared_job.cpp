@@ -14,36 +14,23 @@
 namespace eigentrail::app {
 namespace {
 
+const OutputFormat part_of_a_run{"part of a run",
+                                 [](const std::string& path) { return begins_with(path, pieces_format); }};
+
 /// Whether --resume has nothing to do: the output, or this part of it, is complete, which is then said.
 /// Throws InputError if it is of another run.
 bool has_ended(const SharedJob& job, const OutputChoice& output, const Team& team) {
   std::error_code not_found;
   if (!output.resume || !std::filesystem::exists(output.path, not_found) || is_unfinished(output.path))
     return false;
-  if (output.part) {
-    require_part(output.path, job.run, *output.part);
-  } else if (!job.is_whole) {
+  if (!output.part && job.is_whole) {
+    if (!job.is_whole()) return false;
+  } else {
     require_run(output.path, job.run);
-  } else if (!job.is_whole()) {
-    return false;
   }
   if (team.leads() && !output.quiet)
     std::printf("%s: the run has come to its end already\n", output.path.c_str());
   return true;
-}
-
-/// What the run with this output, or this part of it, has left. Says on the process that leads where it was
-/// computed with another kernel of BLAS.
-std::unique_ptr<UnfinishedRun> unfinished_run(OutputChoice& output, SharedRun run, const Team& team) {
-  if (const auto& part = output.part)
-    run.settings.emplace_back("--part", std::to_string(part->number) + "/" + std::to_string(part->count));
-  const Before before = output.force ? Before::discard : output.resume ? Before::resume : Before::refuse;
-  auto unfinished = std::make_unique<UnfinishedRun>(output.path, run, before);
-  output.force = output.force || unfinished->goes_on();
-  if (team.leads() && !unfinished->other_kernel().empty())
-    warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
-         "); the last digits differ from those of a run on one machine");
-  return unfinished;
 }
 
 /// Ends a run whose pieces have all been computed: `write` writes the output and returns the exit code. What
@@ -58,54 +45,53 @@ int end_run(UnfinishedRun& unfinished, const std::function<int()>& write) try {
 }
 
 /// Writes a part with a note on what to do next.
-int finish_part(const OutputChoice& output, const SharedRun& run, std::vector<std::string> pieces) {
-  const Part& part = *output.part;
-  const std::size_t computed = pieces.size();
-  write_part({output.path, run, part, std::move(pieces)}, output.existing());
+int finish_part(const OutputChoice& output, const SharedRun& run, UnfinishedRun& unfinished) {
+  unfinished.write_part(output.existing());
   if (!output.quiet)
     std::printf("wrote %s: part %d of %d, %zu of %zu pieces; eigentrail merge joins the parts\n",
-                output.path.c_str(), part.number, part.count, computed, run.n_pieces);
+                output.path.c_str(), run.part->number, run.part->count, run.pieces().size(), run.n_pieces);
   return done;
 }
 
-/// What is saved of a run that writes an output, which is checked; null for others.
+/// What a run that writes an output, which is checked, has left, and the pieces of parts that are joined;
+/// null for other runs. Says on the process that leads where it was computed with another kernel of BLAS.
 std::unique_ptr<UnfinishedRun> saved_pieces(const SharedJob& job, OutputChoice& output, const Team& team) {
   if (!job.writes) return nullptr;
-  auto unfinished = unfinished_run(output, job.run, team);
+  const Before before = output.force ? Before::discard : output.resume ? Before::resume : Before::refuse;
+  auto unfinished = std::make_unique<UnfinishedRun>(output.path, job.run, before);
+  unfinished->take(job.known);
+  output.force = output.force || unfinished->goes_on();
   if (!team.leads()) return unfinished;
+  if (!unfinished->other_kernel().empty())
+    warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
+         "); the last digits differ from those of a run on one machine");
   job.check_more_files();
-  check_new_output(output.path, output.force,
-                   output.part ? hdf5_format(part_format, "part of a run") : job.format);
+  check_new_output(output.path, output.force, output.part ? part_of_a_run : job.format);
   return unfinished;
 }
 
 }  // namespace
 
-int carry_out(const SharedJob& job, OutputChoice& output, Team& team) {
+int carry_out(SharedJob job, OutputChoice& output, Team& team) {
+  job.run.part = output.part;
   if (job.writes && has_ended(job, output, team)) return done;
   const auto unfinished = saved_pieces(job, output, team);
   // All processes of the team meet here: none looks any more for what an earlier run has left.
   std::unique_ptr<Workers> workers = team.workers(job.jobs);
   if (unfinished && job.leaves_more_files && team.leads()) unfinished->begin();
   if (unfinished) workers = std::make_unique<SavingWorkers>(std::move(workers), *unfinished);
-  const std::vector<std::size_t> numbers = output.part.value_or(Part{}).pieces(job.run.n_pieces);
+  const std::vector<std::size_t> numbers = job.run.pieces();
   ProgressBar progress(output.quiet);
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::string> pieces = job.compute(numbers, *workers, progress);
+  const std::vector<std::string> pieces = job.compute(numbers, *workers, progress);
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto finish = [&]() -> int {
-    if (!output.part) return job.finish(pieces, *workers, seconds);
-    return team.leads() ? finish_part(output, job.run, std::move(pieces)) : done;
+    if (!output.part)
+      return job.finish(pieces, *workers, job.known.empty() ? std::optional(seconds) : std::nullopt);
+    return team.leads() ? finish_part(output, job.run, *unfinished) : done;
   };
   return unfinished && team.leads() ? end_run(*unfinished, finish) : finish();
-}
-
-int finish_joined(const SharedJob& job, const std::vector<std::string>& pieces, const OutputChoice& output,
-                  Team& team) {
-  if (team.leads()) check_new_output(output.path, output.force, job.format);
-  const auto workers = team.workers(job.jobs);
-  return job.finish(pieces, *workers, std::nullopt);
 }
 
 void write_result(const OutputChoice& output, const SharedRun& run, const std::string& bytes,

@@ -16,7 +16,7 @@ namespace eigentrail::app {
 
 /// What a command does with the pieces of its run.
 struct SharedJob {
-  SharedRun run;
+  SharedRun run;        ///< carry_out sets its part
   OutputFormat format;  ///< of the output
   int jobs = 0;         ///< threads of a process; 0: one per core
   /// Computes the pieces with these numbers.
@@ -32,16 +32,13 @@ struct SharedJob {
   std::function<void()> check_more_files = [] {};  ///< the same as for the output
   /// Whether an output that is there is the whole one of this run; else the mark in the file says it.
   std::function<bool()> is_whole = {};
+  PiecesByName known = {};  ///< pieces that other runs have computed
 };
 
 /// Computes the pieces, or those of one part, and finishes the run or writes the part. What an interrupted
 /// run has left is used if --resume asks for it, and what this one computes is saved until it ends. Where
 /// there is something to go on from, the output may be replaced: it is older. Returns the exit code.
-int carry_out(const SharedJob& job, OutputChoice& output, Team& team);
-
-/// Finishes a run all of whose pieces are known.
-int finish_joined(const SharedJob& job, const std::vector<std::string>& pieces, const OutputChoice& output,
-                  Team& team);
+int carry_out(SharedJob job, OutputChoice& output, Team& team);
 
 /// Writes the output of a run with its mark, by which --resume knows it; then says so, below what `print`
 /// prints.

@@ -10,7 +10,7 @@
 #include "eigentrail/projection/project.hpp"
 #include "factor_team.hpp"
 #include "output.hpp"
-#include "printed_format.hpp"
+#include "output_choice.hpp"
 #include "scene_arguments.hpp"
 #include "values.hpp"
 

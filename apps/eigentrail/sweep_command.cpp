@@ -16,6 +16,7 @@ namespace eigentrail::app {
 namespace {
 
 constexpr std::size_t most_runs = 1'000'000;
+constexpr const char* piece_kind = "run";
 
 struct SweepArguments : SceneArguments {
   std::vector<std::string> vary;  ///< NAME=VALUES
@@ -163,7 +164,7 @@ int run_sweep(SweepArguments& arguments, Team& team) {
       return std::to_string(row.exit_code) + index_line(row);
     };
     return workers.compute(
-        {"run", numbers, trace_one}, [&](std::size_t finished, std::size_t, const std::string&) {
+        {piece_kind, numbers, trace_one}, [&](std::size_t finished, std::size_t, const std::string&) {
           progress.update(static_cast<double>(finished) / static_cast<double>(numbers.size()),
                           static_cast<int>(finished), "runs");
         });
@@ -174,7 +175,11 @@ int run_sweep(SweepArguments& arguments, Team& team) {
 }  // namespace
 
 SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
-  return sweep_job(run, output, team);
+  SharedJob job = sweep_job(run, output, team);
+  job.compute = [](const std::vector<std::size_t>& numbers, Workers& workers, ProgressBar&) {
+    return workers.compute({piece_kind, numbers, {}});
+  };
+  return job;
 }
 
 void add_sweep(CLI::App& program, int& exit_code) {

@@ -1,22 +1,20 @@
 // Processes that mpirun has started, by MPI.
 //
-// The first process gives out pieces one by one to its own threads and, on request, to those of the others.
-// All messages are sent and received by the thread that called MPI_Init_thread; threads that compute hand it
-// their results. It looks for messages and sleeps in between, because the waiting functions of MPI keep a
-// core busy that a computing thread could use.
+// The first process gives out pieces one by one: to its own threads, and to those of the others, each of
+// which sends what it has computed and waits for the number of its next piece. Who waits for a message looks
+// for it and sleeps in between, because the waiting functions of MPI keep a core busy that a computing thread
+// could use.
 #include <mpi.h>
 #include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <deque>
 #include <exception>
+#include <functional>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -35,7 +33,8 @@ namespace {
 constexpr int leader = 0;
 constexpr std::int64_t no_piece = -1;
 
-enum Tag : int { request_tag = 1, answer_tag = 2, result_tag = 3 };
+constexpr int report_tag = 0;
+constexpr int answer_tag = 1;  ///< of the first thread of a process; those of the others follow
 
 /// What a piece, or a process, has come to: 0, or the exit code of an error and its message.
 struct Outcome {
@@ -55,21 +54,6 @@ Outcome outcome_of(Work&& work) {
   }
 }
 
-/// Sleeps between looks for messages: first briefly, then longer, because each look costs some 20 us of
-/// computing time. The longest sleep is short compared with pieces that are worth sharing.
-class Backoff {
- public:
-  void sleep() {
-    std::this_thread::sleep_for(pause_);
-    pause_ = std::min(2 * pause_, longest);
-  }
-  void restart() { pause_ = shortest; }
-
- private:
-  static constexpr std::chrono::microseconds shortest{50}, longest{3200};
-  std::chrono::microseconds pause_ = shortest;
-};
-
 [[noreturn]] void throw_error(const Outcome& outcome) {
   if (outcome.code == bad_input) throw InputError(outcome.bytes);
   throw std::runtime_error(outcome.bytes);
@@ -80,17 +64,43 @@ struct OtherProcessFailed {
   int code;
 };
 
+/// Looks until there is what is waited for. The sleeps between are first brief, then longer, because each
+/// look costs some 20 us of computing time; the longest is short compared with pieces that are worth sharing.
+template <class Look>
+void wait_until(Look look) {
+  constexpr std::chrono::microseconds shortest{50}, longest{3200};
+  for (auto pause = shortest; !look(); pause = std::min(2 * pause, longest))
+    std::this_thread::sleep_for(pause);
+}
+
 void wait_for(MPI_Request request) {
-  int complete = 0;
-  Backoff backoff;
-  while (MPI_Test(&request, &complete, MPI_STATUS_IGNORE), complete == 0) backoff.sleep();
+  wait_until([&request] {
+    int complete = 0;
+    MPI_Test(&request, &complete, MPI_STATUS_IGNORE);
+    return complete != 0;
+  });
 }
 
 /// Sends a message. Long ones wait until they are received, so MPI_Send would keep the core busy.
-void send(const void* data, std::size_t size, int to, Tag tag) {
+void send(const std::string& bytes, int to, int tag) {
   MPI_Request request{};
-  MPI_Isend(data, static_cast<int>(size), MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
+  MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
   wait_for(request);
+}
+
+/// The next message with this tag, and the process that has sent it.
+std::pair<std::string, int> receive(int tag) {
+  MPI_Status status{};
+  wait_until([&] {
+    int there = 0;
+    MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status);
+    return there != 0;
+  });
+  int size = 0;
+  MPI_Get_count(&status, MPI_BYTE, &size);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  MPI_Recv(bytes.data(), size, MPI_BYTE, status.MPI_SOURCE, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  return {std::move(bytes), status.MPI_SOURCE};
 }
 
 /// Sends bytes of one process to all. MPI counts with int, so long texts go in slices.
@@ -123,64 +133,24 @@ void wait_for_all() {
   wait_for(request);
 }
 
-/// Threads of this process that compute pieces which the communicating thread hands to them.
-class ComputingThreads {
- public:
-  ComputingThreads(std::size_t count, const Piece& piece) : working_(count) {
-    for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this, &piece] { work(piece); });
-  }
+/// Takes the outcome of a piece, or no piece, from a thread and gives it the number of its next one.
+using Report = std::function<std::int64_t(std::int64_t piece, Outcome outcome)>;
 
-  /// Number of threads that wait for a piece and have not been given one.
-  std::size_t idle() const {
-    const std::scoped_lock lock(mutex_);
-    return waiting_ - inbox_.size();
-  }
-  void give(std::int64_t piece) {
-    const std::scoped_lock lock(mutex_);
-    inbox_.push_back(piece);
-    arrived_.notify_one();
-  }
-  std::optional<std::pair<std::int64_t, Outcome>> finished() {
-    const std::scoped_lock lock(mutex_);
-    if (results_.empty()) return std::nullopt;
-    auto result = std::move(results_.front());
-    results_.pop_front();
-    return result;
-  }
-  /// Whether all threads have been told that there is no further piece.
-  bool ended() const {
-    const std::scoped_lock lock(mutex_);
-    return working_ == 0 && results_.empty();
-  }
-
- private:
-  void work(const Piece& piece) {
-    while (true) {
-      std::unique_lock lock(mutex_);
-      ++waiting_;
-      arrived_.wait(lock, [this] { return !inbox_.empty(); });
-      --waiting_;
-      const std::int64_t number = inbox_.front();
-      inbox_.pop_front();
-      if (number == no_piece) {
-        --working_;
-        return;
+/// Threads of this process that compute pieces until there are none, and report to report_of(thread).
+template <class ReportOf>
+std::vector<std::jthread> computing_threads(std::size_t count, const Pieces& pieces, ReportOf report_of) {
+  std::vector<std::jthread> threads;
+  for (std::size_t thread = 0; thread < count; ++thread) {
+    threads.emplace_back([&pieces, report = Report(report_of(thread))] {
+      std::int64_t piece = report(no_piece, {});
+      while (piece != no_piece) {
+        const std::size_t number = pieces.numbers[static_cast<std::size_t>(piece)];
+        piece = report(piece, outcome_of([&] { return pieces.compute(number); }));
       }
-      lock.unlock();
-      Outcome outcome = outcome_of([&] { return piece(static_cast<std::size_t>(number)); });
-      lock.lock();
-      results_.emplace_back(number, std::move(outcome));
-    }
+    });
   }
-
-  mutable std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::deque<std::int64_t> inbox_;
-  std::deque<std::pair<std::int64_t, Outcome>> results_;
-  std::size_t waiting_ = 0;
-  std::size_t working_;
-  std::vector<std::jthread> threads_;
-};
+  return threads;
+}
 
 /// This process among all.
 class Processes {
@@ -224,14 +194,11 @@ class MpiWorkers final : public Workers {
   std::vector<std::string> compute(const Pieces& pieces, const Finished& finished) override {
     processes_.agree({});
     std::vector<std::string> results(pieces.numbers.size());
-    const Piece piece = [&pieces](std::size_t i) { return pieces.compute(pieces.numbers[i]); };
     Outcome outcome;
     if (processes_.leads()) {
-      outcome = lead(piece, results, [&](std::size_t done, std::size_t i, const std::string& result) {
-        finished(done, pieces.numbers[i], result);
-      });
+      outcome = lead(pieces, results, finished);
     } else {
-      assist(piece);
+      assist(pieces);
     }
     processes_.agree(outcome);
     std::string all = processes_.leads() ? packed(results) : std::string();
@@ -242,92 +209,56 @@ class MpiWorkers final : public Workers {
   std::size_t size() const override { return all_threads_; }
 
  private:
-  Outcome lead(const Piece& piece, std::vector<std::string>& results, const Finished& finished) const;
-  void assist(const Piece& piece) const;
+  Outcome lead(const Pieces& pieces, std::vector<std::string>& results, const Finished& finished) const;
+  void assist(const Pieces& pieces) const;
 
   Processes& processes_;
   std::size_t threads_;
   std::size_t all_threads_ = 0;
 };
 
-Outcome MpiWorkers::lead(const Piece& piece, std::vector<std::string>& results,
+Outcome MpiWorkers::lead(const Pieces& pieces, std::vector<std::string>& results,
                          const Finished& finished) const {
-  ComputingThreads own(threads_, piece);
+  std::mutex mutex;
   Outcome failure;
   std::size_t next = 0, n_finished = 0;
-  std::size_t others = all_threads_ - threads_;  // threads of other processes that have not been released
-  const auto next_piece = [&] {
+  const Report report = [&](std::int64_t number, Outcome outcome) {
+    const std::scoped_lock lock(mutex);
+    if (number != no_piece && outcome.code == done) {
+      const auto i = static_cast<std::size_t>(number);
+      results[i] = std::move(outcome.bytes);
+      outcome =
+          outcome_of([&] { return finished(++n_finished, pieces.numbers[i], results[i]), std::string(); });
+    }
+    if (outcome.code != done && failure.code == done) failure = std::move(outcome);
     const bool left = failure.code == done && next < results.size();
     return left ? static_cast<std::int64_t>(next++) : no_piece;
   };
-  const auto take = [&](std::int64_t number, Outcome outcome) {
-    if (outcome.code == done) {
-      const auto i = static_cast<std::size_t>(number);
-      results[i] = std::move(outcome.bytes);
-      outcome = outcome_of([&] { return finished(++n_finished, i, results[i]), std::string(); });
+  {
+    const auto own = computing_threads(threads_, pieces, [&](std::size_t) { return report; });
+    for (std::size_t others = all_threads_ - threads_; others > 0;) {
+      const auto [message, process] = receive(report_tag);
+      std::int32_t thread = 0;
+      std::int64_t number = no_piece;
+      Outcome outcome;
+      unpack(message, thread, number, outcome.code, outcome.bytes);
+      const std::int64_t answer = report(number, std::move(outcome));
+      if (answer == no_piece) --others;
+      send(packed(answer), process, answer_tag + thread);
     }
-    if (outcome.code != done && failure.code == done) failure = std::move(outcome);
-  };
-  Backoff backoff;
-  while (others > 0 || !own.ended()) {
-    bool idle = true;
-    for (std::size_t i = own.idle(); i > 0; --i) {
-      idle = false;
-      own.give(next_piece());
-    }
-    while (auto result = own.finished()) take(result->first, std::move(result->second));
-    int there = 0;
-    MPI_Status status{};
-    while (MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status), there != 0) {
-      idle = false;
-      int size = 0;
-      MPI_Get_count(&status, MPI_BYTE, &size);
-      std::string bytes(static_cast<std::size_t>(size), '\0');
-      MPI_Recv(bytes.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
-               MPI_STATUS_IGNORE);
-      if (status.MPI_TAG == request_tag) {
-        const std::int64_t answer = next_piece();
-        others -= answer == no_piece ? 1 : 0;
-        send(&answer, sizeof answer, status.MPI_SOURCE, answer_tag);
-      } else {
-        std::int64_t number = no_piece;
-        Outcome outcome;
-        unpack(bytes, number, outcome.code, outcome.bytes);
-        take(number, std::move(outcome));
-      }
-    }
-    idle ? backoff.sleep() : backoff.restart();
   }
   return failure;
 }
 
-void MpiWorkers::assist(const Piece& piece) const {
-  ComputingThreads own(threads_, piece);
-  std::size_t requested = 0;
-  Backoff backoff;
-  while (!own.ended()) {
-    bool idle = true;
-    // Results first: the answer "no piece" then tells the first process that it has all results of a thread.
-    while (auto result = own.finished()) {
-      idle = false;
-      const auto& [number, outcome] = *result;
-      const std::string message = packed(number, outcome.code, outcome.bytes);
-      send(message.data(), message.size(), leader, result_tag);
-    }
-    for (; requested < own.idle(); ++requested) {
-      idle = false;
-      send(nullptr, 0, leader, request_tag);
-    }
-    int there = 0;
-    while (MPI_Iprobe(leader, answer_tag, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE), there != 0) {
-      idle = false;
+void MpiWorkers::assist(const Pieces& pieces) const {
+  const auto own = computing_threads(threads_, pieces, [](std::size_t i) {
+    return [thread = static_cast<std::int32_t>(i)](std::int64_t number, const Outcome& outcome) {
+      send(packed(thread, number, outcome.code, outcome.bytes), leader, report_tag);
       std::int64_t answer = no_piece;
-      MPI_Recv(&answer, sizeof answer, MPI_BYTE, leader, answer_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-      own.give(answer);
-      --requested;
-    }
-    idle ? backoff.sleep() : backoff.restart();
-  }
+      unpack(receive(answer_tag + thread).first, answer);
+      return answer;
+    };
+  });
 }
 
 /// Number of cores that this process has for itself: those it is bound to, or its share of the machine.
@@ -372,7 +303,7 @@ class MpiTeam final : public Team {
   }
 
  private:
-  MpiSession session_;
+  MpiSession session_{MPI_THREAD_MULTIPLE};
   Processes processes_;
   std::size_t cores_ = own_cores();
 };

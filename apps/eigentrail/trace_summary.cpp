@@ -6,10 +6,10 @@
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/modes/whirl.hpp"
-#include "frequency_unit.hpp"
 #include "output.hpp"
 #include "projection_info.hpp"
 #include "ranges.hpp"
+#include "scene/frequency_unit.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -210,7 +210,7 @@ std::string identity_text(const TraceSummary& trace) {
 void print_summary(const TraceSummary& trace, bool verbose) {
   const TraceOptions& options = trace.setup.options;
   const FrequencyUnit unit =
-      frequency_unit(trace.setup.model->description().parameters.at(options.parameter));
+      frequency_unit(trace.setup.model->description().parameters.at(options.parameter).unit);
   print_heading(trace);
   const std::vector<Permanence> permanence =
       permanence_of_modes(trace.path, {options.tolerance, trace.result.s_ref});

@@ -50,18 +50,17 @@ void print_work(const TraceResult& result) {
     std::printf("        %llu times a mode passed a point as its dense output went on\n",
                 static_cast<unsigned long long>(counts.modes.passed));
   }
-  std::printf(
-      "  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, certificate %s, matching "
-      "%s, events "
-      "%s, output %s\n",
-      rounded(result.seconds, 3).c_str(), percent(counts.equilibrium_seconds, result.seconds).c_str(),
-      percent(counts.reduction_seconds, result.seconds).c_str(),
-      percent(counts.modes_seconds, result.seconds).c_str(),
-      percent(counts.differentiation_seconds, result.seconds).c_str(),
-      percent(counts.certificate_seconds, result.seconds).c_str(),
-      percent(counts.matching_seconds, result.seconds).c_str(),
-      percent(counts.events_seconds, result.seconds).c_str(),
-      percent(counts.output_seconds, result.seconds).c_str());
+  std::string shares;
+  for (const auto& [what, seconds] : {std::pair("equilibrium", counts.equilibrium_seconds),
+                                      {"reduction", counts.reduction_seconds},
+                                      {"modes", counts.modes_seconds},
+                                      {"differentiation", counts.differentiation_seconds},
+                                      {"certificate", counts.certificate_seconds},
+                                      {"matching", counts.matching_seconds},
+                                      {"events", counts.events_seconds},
+                                      {"output", counts.output_seconds}})
+    shares += (shares.empty() ? "" : ", ") + std::string(what) + " " + percent(seconds, result.seconds);
+  std::printf("  time  %s s: %s\n", rounded(result.seconds, 3).c_str(), shares.c_str());
 }
 
 void print_effects(const Model& model, const EvaluationCounts& counts) {

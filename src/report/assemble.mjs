@@ -1,20 +1,12 @@
-// Inserts styles and scripts into the page: node assemble.mjs PAGE OUTPUT FILE...
-// Each <!-- insert NAME --> in the page is replaced by the contents of the FILE of that name.
-import { basename } from "node:path";
+// Inserts styles and scripts into the page: node assemble.mjs PAGE OUTPUT LIBRARY
+// Each <!-- insert NAME --> in the page is replaced by the LIBRARY, or the file beside the page, of that name.
+import { basename, dirname, join } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
 
-const [page, output, ...files] = process.argv.slice(2);
-const contents = new Map(files.map((file) => [basename(file), readFileSync(file, "utf8")]));
-const missing = [];
-const used = new Set();
+const [page, output, library] = process.argv.slice(2);
 const text = readFileSync(page, "utf8").replace(/<!-- insert (\S+) -->/g, (mark, name) => {
-  if (!contents.has(name)) missing.push(name);
-  used.add(name);
-  return contents.get(name);
-});
-const unused = [...contents.keys()].filter((name) => !used.has(name));
-if (missing.length || unused.length)
-  throw new Error(`${page}: not given: ${missing.join(", ") || "none"}; not inserted: ${unused.join(", ") || "none"}`);
-for (const [name, content] of contents)
+  const content = readFileSync(name === basename(library) ? library : join(dirname(page), name), "utf8");
   if (/<\/(script|style)/i.test(content)) throw new Error(`${name}: would end the element that it stands in`);
+  return content;
+});
 writeFileSync(output, text);

@@ -29,6 +29,10 @@ Json attributes_data(const Hdf5File& file);
 /// A loci file: curves, events, stable ranges, modes.
 Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget);
 
+/// A list of objects with kind, from, to and margins. from and to are objects with parameter, cause, margin
+/// and mode (from 1; null if none is known).
+Json ranges_data(const std::vector<StableRange>& ranges);
+
 /// Eigenvalues of every mode, and the parameter, along the path (curve_data.cpp).
 Json curves_data(const LociFile& loci, const ReportBudget& budget);
 

@@ -37,6 +37,13 @@ std::vector<Carrier> carriers(const std::vector<std::string>& coordinates) {
   return list;
 }
 
+/// What a table has under a key, if it is of this kind; else null.
+template <class Kind>
+const Kind* find(const Table& table, const char* key) {
+  const Value* value = table.find(key);
+  return value != nullptr ? std::get_if<Kind>(&value->data) : nullptr;
+}
+
 class Figure {
  public:
   Figure(const LociFile& loci, const std::vector<std::size_t>& nodes)
@@ -75,8 +82,8 @@ class Figure {
     return std::nullopt;
   }
 
-  std::optional<PlaceExpressions> triple(const Value& value) const {
-    const auto* array = std::get_if<Array>(&value.data);
+  std::optional<PlaceExpressions> triple(const Value* value) const {
+    const auto* array = value != nullptr ? std::get_if<Array>(&value->data) : nullptr;
     if (array == nullptr || array->size() != 3) return std::nullopt;
     PlaceExpressions place;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -91,19 +98,17 @@ class Figure {
 
   void read_bodies() {
     for (const Table* table : tables(scene_, "body")) {
-      const Value* name = table->find("name");
-      const auto* text = name != nullptr ? std::get_if<std::string>(&name->data) : nullptr;
+      const auto* text = find<std::string>(*table, "name");
       if (text == nullptr || !carrier(*text)) continue;
       if (const Value* centre = table->find("centre")) add_marker(*text, "centre", *centre);
-      const Value* markers = table->find("markers");
-      const auto* marked = markers != nullptr ? std::get_if<Table>(&markers->data) : nullptr;
-      if (marked == nullptr) continue;
-      for (const auto& [marker, at] : marked->entries) add_marker(*text, marker, at);
+      const auto* markers = find<Table>(*table, "markers");
+      if (markers == nullptr) continue;
+      for (const auto& [marker, at] : markers->entries) add_marker(*text, marker, at);
     }
   }
 
   void add_marker(const std::string& body, const std::string& marker, const Value& at) {
-    if (const auto place = triple(at)) markers_[body + "." + marker] = add_place(*carrier(body), *place);
+    if (const auto place = triple(&at)) markers_[body + "." + marker] = add_place(*carrier(body), *place);
   }
 
   /// The coordinates of a place at all nodes; a single triple if they are the same at all.
@@ -125,22 +130,18 @@ class Figure {
   }
 
   std::optional<std::size_t> place(const Table& table, const char* key) {
-    const Value* value = table.find(key);
-    if (value == nullptr) return std::nullopt;
-    if (const auto* name = std::get_if<std::string>(&value->data)) {
+    if (const auto* name = find<std::string>(table, key)) {
       if (const auto marker = markers_.find(*name); marker != markers_.end()) return marker->second;
       if (const auto whole = carrier(*name)) return markers_[*name] = add_place(whole, {});
       return std::nullopt;
     }
-    if (const auto* inner = std::get_if<Table>(&value->data)) {
-      const Value* body = inner->find("body");
-      const Value* at = inner->find("at");
-      const auto* name = body != nullptr ? std::get_if<std::string>(&body->data) : nullptr;
-      const auto local = at != nullptr ? triple(*at) : std::nullopt;
+    if (const auto* inner = find<Table>(table, key)) {
+      const auto* name = find<std::string>(*inner, "body");
+      const auto local = triple(inner->find("at"));
       if (name == nullptr || !local || !carrier(*name)) return std::nullopt;
       return add_place(carrier(*name), *local);
     }
-    const auto fixed = triple(*value);
+    const auto fixed = triple(table.find(key));
     return fixed ? std::optional(add_place(std::nullopt, *fixed)) : std::nullopt;
   }
 

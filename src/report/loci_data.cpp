@@ -8,6 +8,7 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "report/file_data.hpp"
+#include "scene/frequency_unit.hpp"
 
 namespace eigentrail {
 namespace {
@@ -72,22 +73,10 @@ Json events_data(const LociFile& loci) {
 }
 
 Json end_data(const RangeEnd& end) {
-  return {{"parameter", end.p}, {"cause", end.cause}, {"margin", end.margin}, {"mode", end.mode}};
-}
-
-Json ranges_data(const LociFile& loci) {
-  if (!loci.ranges) return nullptr;
-  Json list = Json::array();
-  for (const StableRange& range : *loci.ranges) {
-    list.push_back({{"kind", stability_name(range.kind)},
-                    {"whole", range.whole},
-                    {"from", end_data(range.from)},
-                    {"to", end_data(range.to)},
-                    {"least_margin", range.least_margin},
-                    {"largest_margin", range.largest_margin},
-                    {"largest_at", range.largest_at}});
-  }
-  return list;
+  return {{"parameter", end.p},
+          {"cause", end.cause},
+          {"margin", end.margin},
+          {"mode", end.mode < 0 ? Json() : Json(end.mode + 1)}};
 }
 
 /// Operating ranges in the unit of the traced parameter; `margin` is null where that of API 684 is wanted.
@@ -95,16 +84,6 @@ Json operating_data(const OperatingRanges& operating) {
   Json ranges = Json::array();
   for (const OperatingRange& range : operating.ranges) ranges.push_back({range.from, range.to});
   return {{"ranges", ranges}, {"margin", operating.margin ? Json(*operating.margin) : Json(nullptr)}};
-}
-
-/// The unit in which the page shows frequencies first: that of the traced parameter if it is a speed or a
-/// frequency, so that the first harmonic is the diagonal; Hz otherwise.
-Json frequency_unit(const LociFile& loci) {
-  const auto unit = parse_unit(loci.parameter_unit);
-  const auto hertz = parse_unit("Hz");
-  if (unit && unit->dimension == hertz->dimension)
-    return {{"name", loci.parameter_unit}, {"factor", unit->factor}};
-  return {{"name", "Hz"}, {"factor", hertz->factor}};
 }
 
 /// Measure of whirl (1 forward on circles, -1 backward) and the share of the other sense, per point and mode;
@@ -119,6 +98,20 @@ Json whirl_data(const LociFile& loci, const Hdf5File& file) {
 }
 
 }  // namespace
+
+Json ranges_data(const std::vector<StableRange>& ranges) {
+  Json list = Json::array();
+  for (const StableRange& range : ranges) {
+    list.push_back({{"kind", stability_name(range.kind)},
+                    {"whole_model", range.whole},
+                    {"from", end_data(range.from)},
+                    {"to", end_data(range.to)},
+                    {"least_margin", range.least_margin},
+                    {"largest_margin", range.largest_margin},
+                    {"largest_at", range.largest_at}});
+  }
+  return list;
+}
 
 std::vector<double> si_values(const Scene& scene, const std::string& parameter, double p) {
   const Vector declared = scene.parameters.declared_values();
@@ -163,14 +156,15 @@ Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& b
   }
   Json data{{"kind", "loci"}};
   data["parameter"] = {{"name", loci.parameter}, {"unit", loci.parameter_unit}};
-  data["frequency_unit"] = frequency_unit(loci);
+  const FrequencyUnit unit = frequency_unit(loci.parameter_unit);
+  data["frequency_unit"] = {{"name", unit.name}, {"factor", unit.factor}};
   data["whirl"] = whirl_data(loci, file);
   data["coordinates"] = loci.coordinates;
   data["constraints"] = loci.constraints.size();
   data["curves"] = curves_data(loci, budget);
   data["modes"] = modes_data(loci);
   data["events"] = events_data(loci);
-  data["ranges"] = ranges_data(loci);
+  data["ranges"] = loci.ranges ? ranges_data(*loci.ranges) : Json();
   data["excitation"] = excitation_data(loci);
   data["shapes"] = shapes_data(loci, file, budget);
   return data;

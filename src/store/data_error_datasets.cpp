@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "store/labelled_datasets.hpp"
+#include "store/loci_schema.hpp"
 
 namespace eigentrail {
 namespace {
@@ -13,21 +13,13 @@ constexpr const char* interval = "event_interval";
 
 }  // namespace
 
-bool is_data_error_dataset(const std::string& name) {
-  return name == interpolation || name == digits || name == interval;
-}
-
 void write_data_errors(Hdf5Writer& file, const std::string& parameter, const DataErrors& errors) {
-  write_dataset(
-      file, {interpolation, "1/s", "bound of the error of the eigenvalue between the samples of the model"},
-      {"step", "mode"}, row_major(errors.interpolation));
-  write_dataset(file, {digits, "1/s", "bound of the error of the eigenvalue from the digits of the samples"},
-                {"step", "mode"}, row_major(errors.digits));
-  write_column(
-      file, {interval, file.units(parameter), "where the event lies as far as the errors of the data tell"},
-      {"event", "end"}, errors.intervals, [](const EventInterval& one) {
-        return std::array{one.from, one.to};
-      });
+  write_whole(file, whole_dataset(interpolation), row_major(errors.interpolation));
+  write_whole(file, whole_dataset(digits), row_major(errors.digits));
+  write_whole(file, whole_dataset(interval, file.units(parameter)),
+              column_of(std::span(errors.intervals), [](const EventInterval& one) {
+                return std::array{one.from, one.to};
+              }));
 }
 
 std::optional<DataErrors> read_data_errors(const Hdf5File& file, std::size_t steps, std::size_t modes,

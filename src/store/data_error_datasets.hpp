@@ -17,7 +17,4 @@ void write_data_errors(Hdf5Writer& file, const std::string& parameter, const Dat
 std::optional<DataErrors> read_data_errors(const Hdf5File& file, std::size_t steps, std::size_t modes,
                                            std::size_t events);
 
-/// Whether one of these datasets has this name.
-bool is_data_error_dataset(const std::string& name);
-
 }  // namespace eigentrail

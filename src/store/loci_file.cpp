@@ -50,26 +50,24 @@ void read_points(const Hdf5File& file, LociFile& loci) {
 
 void read_events(const Hdf5File& file, LociFile& loci) {
   const std::vector<std::string> lines = file.read_texts("events");
-  const std::vector<double> parameters = file.read_real("event_parameter");
-  const std::vector<double> half_widths = file.read_real("event_half_width");
-  const std::vector<Complex> eigenvalues = file.read_complex("event_eigenvalue");
-  const std::vector<Complex> puiseux = file.read_complex("event_puiseux");
   const std::size_t count = lines.size();
-  require(parameters.size() == count && half_widths.size() == count && eigenvalues.size() == count &&
-              puiseux.size() == count,
-          loci, "events");
+  const auto column = [&](const char* name, auto read) {
+    auto values = (file.*read)(name);
+    require(values.size() == count, loci, "events");
+    return values;
+  };
+  const auto parameters = column("event_parameter", &Hdf5File::read_real);
+  const auto half_widths = column("event_half_width", &Hdf5File::read_real);
+  const auto eigenvalues = column("event_eigenvalue", &Hdf5File::read_complex);
+  const auto puiseux = column("event_puiseux", &Hdf5File::read_complex);
+  const auto directions = column("event_direction", &Hdf5File::read_integers);
+  const auto values = column("event_value", &Hdf5File::read_real);
+  const auto nodes = column("event_node", &Hdf5File::read_integers);
   loci.scene_parameters = file.read_texts("scene_parameter");
-  const std::vector<std::int64_t> directions = file.read_integers("event_direction");
-  const std::vector<double> values = file.read_real("event_value");
-  const std::vector<std::int64_t> nodes = file.read_integers("event_node");
   const std::size_t n = loci.scene_parameters.size();
-  for (const auto& [name, columns] :
-       {std::pair("event_shape", loci.coordinates.size()), {"event_sensitivity", n}, {"event_shift", n}})
-    require(file.shape(name) == Shape{count, columns}, loci, name);
   const ComplexMatrix shapes = read_matrix<Complex>(file, "event_shape", count, loci.coordinates.size());
   const ComplexMatrix sensitivities = read_matrix<Complex>(file, "event_sensitivity", count, n);
   const Matrix shifts = read_matrix(file, "event_shift", count, n);
-  require(directions.size() == count && values.size() == count && nodes.size() == count, loci, "events");
   for (const std::int64_t direction : directions)
     require(direction >= -1 && direction <= 1, loci, "event_direction");
   for (std::size_t i = 0; i < count; ++i) {
@@ -122,11 +120,6 @@ double LociFile::number(const std::string& name) const {
   if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size())
     throw InputError(path + ": attribute " + name + ": expected a number, found '" + printable(text) + "'");
   return value;
-}
-
-std::size_t LociFile::nearest_node(double value) const {
-  const auto closer = [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); };
-  return static_cast<std::size_t>(std::min_element(p.begin(), p.end(), closer) - p.begin());
 }
 
 std::vector<ComplexVector> LociFile::eigenvalues_at(double value) const {

@@ -92,6 +92,37 @@ constexpr Row rows[] = {
      Needs::masses},
     {"mode_name", text, "mode", "1", "what moves in the mode where it first exists", Needs::names}};
 
+/// Datasets that are written as a whole.
+constexpr Row whole[] = {
+    {"stable_from", real, "range", "{unit}", "where the range begins, as the trace goes"},
+    {"stable_to", real, "range", "{unit}", "where the range ends, as the trace goes"},
+    {"stable_kind", text, "range", "1",
+     "stable: all modes decay; marginal: none grows, some stay on the imaginary axis; undecided: "
+     "errors of the data leave it open"},
+    {"stable_cause", text, "range end", "1",
+     "what ends the range: an event, start or end of the trace, infinity, or sign change"},
+    {"stable_margin", real, "range end", "1/s", "-max Re s of the followed modes"},
+    {"stable_mode", integer, "range end", "1",
+     "number of the mode that meets the imaginary axis or has the margin; -1: none stands out"},
+    {"stable_least_margin", real, "range", "1/s", "least margin of the range"},
+    {"stable_largest_margin", real, "range", "1/s", "largest margin of the range"},
+    {"stable_largest_at", real, "range", "{unit}", "where the margin is largest"},
+    {"stable_whole", integer, "range", "1",
+     "1: no mode of the whole model grows; 0: no followed mode grows, others are not known"},
+    {"interpolation_error", real, "step mode", "1/s",
+     "bound of the error of the eigenvalue between the samples of the model"},
+    {"digits_error", real, "step mode", "1/s",
+     "bound of the error of the eigenvalue from the digits of the samples"},
+    {"event_interval", real, "event end", "{unit}",
+     "where the event lies as far as the errors of the data tell"},
+    {"shaft_number", integer, "shaft_node", "1", "shaft that the node belongs to, from 0"},
+    {"shaft_place", real, "shaft_node", "m", "place of the node along the z axis"},
+    {"shaft_coordinate", integer, "shaft_node shaft_axis", "1",
+     "index of the coordinate that is the displacement of the node (of the freedom, if the model is "
+     "projected), from 0; -1: held"},
+    {"projection_basis", real, "freedom coordinate", "1",
+     "the large model's vectors are this times the coordinates"}};
+
 /// Dimensions, and datasets that describe them.
 constexpr const char* dimensions[] = {"node",
                                       "step",
@@ -105,7 +136,12 @@ constexpr const char* dimensions[] = {"node",
                                       "event",
                                       "coordinate_unit",
                                       "scene_parameter",
-                                      "scene_parameter_unit"};
+                                      "scene_parameter_unit",
+                                      "range",
+                                      "shaft_node",
+                                      "shaft_axis",
+                                      "freedom",
+                                      "projection_place"};
 
 bool has(Needs needs, const Model& model, const TraceOptions& options) {
   const ModelDescription& description = model.description();
@@ -154,7 +190,7 @@ std::string filled(std::string text, const std::map<std::string, std::string>& w
 }  // namespace
 }  // namespace loci_schema
 
-std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOptions& options) {
+std::vector<LociDataset> growing_datasets(const Model& model, const TraceOptions& options) {
   const ModelDescription& description = model.description();
   const std::string& parameter = options.parameter;
   const std::string unit = label_unit(description.parameters.at(parameter).unit);
@@ -163,7 +199,7 @@ std::vector<GrowingDataset> growing_datasets(const Model& model, const TraceOpti
       {"{unit}", unit},
       {"{per unit}", unit == "1" ? "1/s" : "1/s/(" + unit + ")"},
       {"{coordinates}", loci_schema::common_unit(description)}};
-  std::vector<GrowingDataset> list{
+  std::vector<LociDataset> list{
       {parameter, ElementType::real, {"node"}, unit, "traced parameter " + parameter}};
   for (const loci_schema::Row& row : loci_schema::rows) {
     if (loci_schema::has(row.needs, model, options))
@@ -202,10 +238,11 @@ std::string trimmed_list(const ModelDescription& description) {
 }
 
 bool is_loci_dataset(const std::string& name) {
-  const auto is_it = [&](const auto& item) { return item == name; };
+  const auto is_it = [&](const char* one) { return one == name; };
+  const auto has_it = [&](const loci_schema::Row& row) { return row.name == name; };
   return std::any_of(std::begin(loci_schema::dimensions), std::end(loci_schema::dimensions), is_it) ||
-         std::any_of(std::begin(loci_schema::rows), std::end(loci_schema::rows),
-                     [&](const loci_schema::Row& row) { return row.name == name; });
+         std::any_of(std::begin(loci_schema::rows), std::end(loci_schema::rows), has_it) ||
+         std::any_of(std::begin(loci_schema::whole), std::end(loci_schema::whole), has_it);
 }
 
 std::vector<std::string> datasets_of_events() {
@@ -214,6 +251,22 @@ std::vector<std::string> datasets_of_events() {
     if (loci_schema::words(row.dimensions).front() == "event") names.emplace_back(row.name);
   }
   return names;
+}
+
+LociDataset whole_dataset(const std::string& name, const std::string& parameter_unit) {
+  const auto* row = std::find_if(std::begin(loci_schema::whole), std::end(loci_schema::whole),
+                                 [&](const loci_schema::Row& one) { return one.name == name; });
+  return {name, row->type, loci_schema::words(row->dimensions),
+          loci_schema::filled(row->units, {{"{unit}", parameter_unit}}), row->long_name};
+}
+
+std::vector<LociDataset> datasets_of_ranges() {
+  std::vector<LociDataset> list;
+  for (const loci_schema::Row& row : loci_schema::whole) {
+    LociDataset dataset = whole_dataset(row.name);
+    if (dataset.dimensions.front() == "range") list.push_back(std::move(dataset));
+  }
+  return list;
 }
 
 }  // namespace eigentrail

@@ -73,7 +73,7 @@ void create_loci_datasets(Hdf5Writer& file, const Model& model, const TraceOptio
   write_shafts(file, model.description());
   if (const Projection* projection = model.projection()) write_projection(file, *projection);
   if (!motions.empty()) write_dimension(file, {"motion", "1", "motion of a mass"}, motions);
-  for (const GrowingDataset& dataset : growing_datasets(model, options)) {
+  for (const LociDataset& dataset : growing_datasets(model, options)) {
     Shape shape;
     for (const std::string& dimension : dataset.dimensions) shape.push_back(file.shape(dimension)[0]);
     std::map<std::string, std::string> attributes{{"units", dataset.units}, {"long_name", dataset.long_name}};
@@ -88,7 +88,7 @@ void create_loci_datasets(Hdf5Writer& file, const Model& model, const TraceOptio
 
 LociTables::LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options)
     : file_(std::move(file)) {
-  for (const GrowingDataset& dataset : growing_datasets(model, options)) {
+  for (const LociDataset& dataset : growing_datasets(model, options)) {
     for (const std::string& dimension : dataset.dimensions) sizes_[dimension] = file_.shape(dimension)[0];
     columns_.push_back({dataset, no_elements(dataset.type)});
   }

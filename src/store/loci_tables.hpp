@@ -47,7 +47,7 @@ class LociTables {
  private:
   /// A dataset and its rows that are not written yet.
   struct Column {
-    GrowingDataset dataset;
+    LociDataset dataset;
     decltype(StoredArray::elements) rows;
   };
 

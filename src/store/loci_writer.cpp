@@ -17,10 +17,8 @@
 #include "store/marked_data.hpp"
 #include "store/mode_motions.hpp"
 #include "store/output_lock.hpp"
-#include "store/projection_datasets.hpp"
 #include "store/provenance.hpp"
 #include "store/range_datasets.hpp"
-#include "store/shaft_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -34,20 +32,15 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-bool has_dataset_name(const std::string& parameter) {
-  return is_loci_dataset(parameter) || is_range_dataset(parameter) || is_data_error_dataset(parameter) ||
-         is_projection_dataset(parameter) || is_shaft_dataset(parameter);
-}
-
 }  // namespace
 
 void check_parameter_name(const Scene& scene, const std::string& parameter) {
   for (const std::string& name : trimmed_parameters(scene)) {
-    if (has_dataset_name(name))
+    if (is_loci_dataset(name))
       throw InputError(scene.path + ": [[trim]] unknown: a trimmed parameter cannot be called '" + name +
                        "', the loci file has a dataset of that name; rename it");
   }
-  if (!has_dataset_name(parameter)) return;
+  if (!is_loci_dataset(parameter)) return;
   SourceLocation where;
   for (const Table* trace : tables(scene, "trace")) {
     if (const Value* key = trace->find("parameter")) where = key->where;
@@ -281,7 +274,7 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
   update(checkpoint.so_far(), status);
   std::string image = tables.file().image();
   const std::string state =
-      marked_data(state_mark, image, packed(checkpoint.save(), packed(last_shapes, motions, events)));
+      marked_data(image, packed(checkpoint.save(), packed(last_shapes, motions, events)));
   save(std::move(image), state);
   is_saved = true;
   last_saved = Clock::now();

@@ -4,13 +4,11 @@
 #include <filesystem>
 
 #include "core/archive.hpp"
-#include "core/blas.hpp"
 #include "core/fingerprint.hpp"
-#include "core/hdf5_writer.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "store/differences.hpp"
-#include "store/marked_data.hpp"
+#include "store/saved_pieces.hpp"
 
 namespace eigentrail {
 namespace {
@@ -42,11 +40,13 @@ void check_same_run(const PartFile& first, const PartFile& other) {
   const auto refuse = [&](const std::string& reason) {
     throw InputError(other.path + ": belongs to another run than " + first.path + ": " + reason);
   };
-  const std::string found = changes(first.run.all_settings(), other.run.all_settings());
+  SharedRun of_first = first.run;
+  of_first.part = other.run.part;
+  const std::string found = changes(of_first.all_settings(), other.run.all_settings());
   if (!found.empty()) refuse(found);
-  if (first.part.count != other.part.count)
-    throw InputError(other.path + ": is " + part_name(other.part) + ", but " + first.path + " is " +
-                     part_name(first.part) + "; merge the parts of one division");
+  if (first.run.part->count != other.run.part->count)
+    throw InputError(other.path + ": is " + part_name(*other.run.part) + ", but " + first.path + " is " +
+                     part_name(*first.run.part) + "; merge the parts of one division");
   if (first.run.n_pieces != other.run.n_pieces) refuse("another number of pieces");
 }
 
@@ -78,6 +78,7 @@ std::optional<std::string> SharedRun::setting(const std::string& label) const {
 Settings SharedRun::all_settings() const {
   Settings all = settings;
   all.emplace_back("command", command);
+  if (part) all.emplace_back("--part", std::to_string(part->number) + "/" + std::to_string(part->count));
   return all;
 }
 
@@ -87,78 +88,44 @@ Settings settings_of(const Scene& scene) {
   return {{"version", version()}, {"scene", scene.text}, {"files of the scene", files}};
 }
 
-void write_part(const PartFile& file, Existing existing) {
-  Hdf5Writer head = Hdf5Writer::in_memory(file.path);
-  head.set_attribute("format", part_format);
-  head.set_attribute("schema_version", std::int64_t{part_schema_version});
-  head.set_attribute("program_version", version());
-  head.set_attribute("command", file.run.command);
-  head.set_attribute("scene_path", file.run.scene_path);
-  head.set_attribute("part", std::int64_t{file.part.number});
-  head.set_attribute("part_count", std::int64_t{file.part.count});
-  const std::string pieces = packed(file.run.command, file.run.scene_path, file.run.settings,
-                                    static_cast<std::uint64_t>(file.run.n_pieces), file.part.number,
-                                    file.part.count, file.pieces, blas_kernel());
-  const std::string image = head.image(), marked = marked_data(pieces_mark, image, pieces);
-  write_durably(file.path, {image, marked}, existing);
-}
-
 PartFile read_part_file(const std::string& path) {
   const std::string bytes = bytes_of_file(path);
   const InputError damaged(path + ": is damaged or incomplete; repeat this part");
-  const auto marked = take_apart(pieces_mark, bytes, damaged);
-  if (!marked) {
-    if (may_be_replaced(path, part_format)) throw damaged;
+  if (!bytes.starts_with(pieces_format))
     throw InputError(path +
                      ": is no part of a run, or damaged; expected a file that a command wrote with --part");
-  }
-  // The first bytes of the archive are the same in all versions; the version is checked before the rest.
-  PartFile file;
-  file.path = path;
-  std::uint64_t n_pieces = 0;
   try {
-    ArchiveReader archive(marked->data);
-    archive(file.run.command, file.run.scene_path, file.run.settings);
-    for (const auto& [label, text] : file.run.settings) {
-      if (label == "version" && text != version())
-        throw InputError(path + ": was written by eigentrail " + printable(text) + ", this is " + version() +
-                         "; merge with the version that wrote the parts");
-    }
-    archive(n_pieces, file.part.number, file.part.count, file.pieces, file.blas_kernel);
-    archive.finish();
+    SavedPieces saved = saved_pieces(bytes);
+    const SharedRun& run = saved.run;
+    if (const std::string written = run.setting("version").value_or(version()); written != version())
+      throw InputError(path + ": was written by eigentrail " + printable(written) + ", this is " + version() +
+                       "; merge with the version that wrote the parts");
+    if (!run.part || saved.size != bytes.size() || saved.pieces.size() != run.pieces().size()) throw damaged;
+    return {path, run, saved.blas_kernel, std::move(saved.pieces)};
   } catch (const ArchiveError&) {
     throw damaged;
   }
-  file.run.n_pieces = static_cast<std::size_t>(n_pieces);
-  const Part& part = file.part;
-  if (part.number < 1 || part.number > part.count ||
-      file.pieces.size() != part.pieces(file.run.n_pieces).size())
-    throw damaged;
-  return file;
 }
 
-std::vector<std::string> joined(const std::vector<PartFile>& parts) {
+PiecesByName joined(const std::vector<PartFile>& parts) {
   if (parts.empty()) throw InputError("merge: expected the files of the parts");
   const PartFile& first = parts.front();
-  std::vector<const PartFile*> by_number(static_cast<std::size_t>(first.part.count), nullptr);
+  std::vector<const PartFile*> by_number(static_cast<std::size_t>(first.run.part->count), nullptr);
   for (const PartFile& file : parts) {
     check_same_run(first, file);
-    const PartFile*& place = by_number[static_cast<std::size_t>(file.part.number - 1)];
+    const PartFile*& place = by_number[static_cast<std::size_t>(file.run.part->number - 1)];
     if (place != nullptr)
-      throw InputError(file.path + ": is " + part_name(file.part) + ", as " + place->path +
+      throw InputError(file.path + ": is " + part_name(*file.run.part) + ", as " + place->path +
                        " is; give each part once");
     place = &file;
   }
   std::vector<int> missing;
-  for (int i = 0; i < first.part.count; ++i) {
+  for (int i = 0; i < first.run.part->count; ++i) {
     if (by_number[static_cast<std::size_t>(i)] == nullptr) missing.push_back(i + 1);
   }
-  if (!missing.empty()) refuse_missing(missing, first.part.count);
-  std::vector<std::string> pieces(first.run.n_pieces);
-  for (const PartFile* file : by_number) {
-    const std::vector<std::size_t> numbers = file->part.pieces(pieces.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) pieces[numbers[i]] = file->pieces[i];
-  }
+  if (!missing.empty()) refuse_missing(missing, first.run.part->count);
+  PiecesByName pieces;
+  for (const PartFile* file : by_number) pieces.insert(file->pieces.begin(), file->pieces.end());
   return pieces;
 }
 

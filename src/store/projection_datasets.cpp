@@ -1,18 +1,13 @@
 #include "store/projection_datasets.hpp"
 
-#include "store/labelled_datasets.hpp"
+#include "store/loci_schema.hpp"
 
 namespace eigentrail {
-
-bool is_projection_dataset(const std::string& name) {
-  return name == "freedom" || name == "projection_basis" || name == "projection_place";
-}
 
 void write_projection(Hdf5Writer& file, const Projection& projection) {
   if (projection.is_of_family()) {
     write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
-    write_dataset(file, {"projection_basis", "1", "the large model's vectors are this times the coordinates"},
-                  {"freedom", "coordinate"}, row_major(projection.basis));
+    write_whole(file, whole_dataset("projection_basis"), row_major(projection.basis));
   }
   write_dimension(file, {"projection_place", "1", "values of the parameter whose modes span the space"},
                   projection.sampled_at);

@@ -8,9 +8,6 @@
 
 namespace eigentrail {
 
-/// Whether a dataset of this name may be in a file of a projected model.
-bool is_projection_dataset(const std::string& name);
-
 /// Writes the dimension `freedom`, the basis over it, and what is known of the projection as attributes. The
 /// dimension `coordinate` must exist.
 void write_projection(Hdf5Writer& file, const Projection& projection);

@@ -1,42 +1,14 @@
 #include "store/range_datasets.hpp"
 
-#include <algorithm>
 #include <array>
 
-#include "store/labelled_datasets.hpp"
+#include "store/loci_schema.hpp"
 
 namespace eigentrail {
 namespace {
 
-struct RangeDataset {
-  const char* name;
-  bool per_end;  ///< two values per range, one for each end
-  const char* units;
-  const char* long_name;
-};
-
-constexpr const char* parameter_unit = "";  ///< stands for the unit of the traced parameter
-
 /// Files of version 0.1 are without this one; their ranges are those of the followed modes.
 constexpr const char* whole_model = "stable_whole";
-
-constexpr std::array<RangeDataset, 10> datasets{{
-    {"stable_from", false, parameter_unit, "where the range begins, as the trace goes"},
-    {"stable_to", false, parameter_unit, "where the range ends, as the trace goes"},
-    {"stable_kind", false, "1",
-     "stable: all modes decay; marginal: none grows, some stay on the imaginary axis; undecided: "
-     "errors of the data leave it open"},
-    {"stable_cause", true, "1",
-     "what ends the range: an event, start or end of the trace, infinity, or sign change"},
-    {"stable_margin", true, "1/s", "-max Re s of the followed modes"},
-    {"stable_mode", true, "1",
-     "number of the mode that meets the imaginary axis or has the margin; -1: none stands out"},
-    {"stable_least_margin", false, "1/s", "least margin of the range"},
-    {"stable_largest_margin", false, "1/s", "largest margin of the range"},
-    {"stable_largest_at", false, parameter_unit, "where the margin is largest"},
-    {whole_model, false, "1",
-     "1: no mode of the whole model grows; 0: no followed mode grows, others are not known"},
-}};
 
 Stability kind_of(const std::string& name) {
   for (const Stability kind : {Stability::stable, Stability::undecided}) {
@@ -47,48 +19,35 @@ Stability kind_of(const std::string& name) {
 
 }  // namespace
 
-bool is_range_dataset(const std::string& name) {
-  return name == "range" ||
-         std::any_of(datasets.begin(), datasets.end(),
-                     [&name](const RangeDataset& dataset) { return dataset.name == name; });
-}
-
 void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
                          const std::vector<StableRange>& ranges) {
   using Range = StableRange;
   write_dimension(file, {"range", "1", "range without growing modes"}, counted(ranges.size()));
-  const auto* dataset = datasets.begin();
-  const auto write = [&](auto field) {
-    std::vector<std::string> dimensions{"range"};
-    if (dataset->per_end) dimensions.emplace_back("end");
-    const bool of_parameter = dataset->units == std::string(parameter_unit);
-    write_column(file,
-                 {dataset->name, of_parameter ? file.units(parameter) : dataset->units, dataset->long_name},
-                 dimensions, ranges, field);
-    ++dataset;
+  const auto write = [&, unit = file.units(parameter)](const char* name, auto field) {
+    write_whole(file, whole_dataset(name, unit), column_of(std::span(ranges), field));
   };
   const auto ends = [](auto value) {
     return [value](const Range& range) { return std::array{value(range.from), value(range.to)}; };
   };
-  write([](const Range& range) { return range.from.p; });
-  write([](const Range& range) { return range.to.p; });
-  write([](const Range& range) { return stability_name(range.kind); });
-  write(ends([](const RangeEnd& end) { return end.cause; }));
-  write(ends([](const RangeEnd& end) { return end.margin; }));
-  write(ends([](const RangeEnd& end) { return end.mode < 0 ? -1 : end.mode + 1; }));
-  write(&Range::least_margin);
-  write(&Range::largest_margin);
-  write(&Range::largest_at);
-  write(&Range::whole);
+  write("stable_from", [](const Range& range) { return range.from.p; });
+  write("stable_to", [](const Range& range) { return range.to.p; });
+  write("stable_kind", [](const Range& range) { return stability_name(range.kind); });
+  write("stable_cause", ends([](const RangeEnd& end) { return end.cause; }));
+  write("stable_margin", ends([](const RangeEnd& end) { return end.margin; }));
+  write("stable_mode", ends([](const RangeEnd& end) { return end.mode < 0 ? -1 : end.mode + 1; }));
+  write("stable_least_margin", &Range::least_margin);
+  write("stable_largest_margin", &Range::largest_margin);
+  write("stable_largest_at", &Range::largest_at);
+  write(whole_model, &Range::whole);
 }
 
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes) {
   if (!file.has("stable_from")) return std::nullopt;
   const Shape shape = file.shape("range");
   const std::uint64_t count = shape.empty() ? 0 : shape[0];
-  for (const RangeDataset& dataset : datasets) {
+  for (const LociDataset& dataset : datasets_of_ranges()) {
     if (dataset.name == whole_model && !file.has(whole_model)) continue;
-    const Shape expected = dataset.per_end ? Shape{count, 2} : Shape{count};
+    const Shape expected = dataset.dimensions.size() == 2 ? Shape{count, 2} : Shape{count};
     file.require_fit(file.shape(dataset.name) == expected, dataset.name);
   }
   const auto from = file.read_real("stable_from");

@@ -17,7 +17,4 @@ void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
 /// inconsistent.
 std::optional<std::vector<StableRange>> read_stable_ranges(const Hdf5File& file, std::size_t n_modes);
 
-/// Whether one of these datasets has this name.
-bool is_range_dataset(const std::string& name);
-
 }  // namespace eigentrail

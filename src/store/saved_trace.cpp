@@ -24,8 +24,7 @@ void check_same(const LociFile& loci, const Scene& scene, const TraceOptions& op
 /// Separates the states from the HDF5 data. Throws InputError if there is no state or it is damaged.
 SavedTrace split(const std::string& path, std::string_view bytes) {
   const std::string refusal = path + ": cannot be resumed: it ";
-  const auto file =
-      take_apart(state_mark, bytes, InputError(refusal + "is damaged; begin anew with --force"));
+  const auto file = take_apart(bytes, InputError(refusal + "is damaged; begin anew with --force"));
   if (!file) throw InputError(refusal + "holds no state of the trace; begin anew with --force");
   SavedTrace saved;
   unpack(file->data, saved.trace, saved.writer);

@@ -6,9 +6,6 @@
 
 namespace eigentrail {
 
-/// Whether a loci file has such a dataset of this name.
-bool is_shaft_dataset(const std::string& name);
-
 /// Writes the nodes of a model with shafts; nothing for others.
 void write_shafts(Hdf5Writer& file, const ModelDescription& description);
 

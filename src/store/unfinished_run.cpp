@@ -2,10 +2,8 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -14,37 +12,13 @@
 #include "core/fingerprint.hpp"
 #include "store/differences.hpp"
 #include "store/output_lock.hpp"
+#include "store/saved_pieces.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr std::string_view format = "eigentrail-unfinished 1\n";
-
-using RecordHead = std::array<std::uint64_t, 2>;  ///< size and fingerprint of the bytes that follow
-
-std::string record_of(const std::string& bytes) {
-  const RecordHead head{bytes.size(), fingerprint(bytes)};
-  return std::string(reinterpret_cast<const char*>(head.data()), sizeof head) + bytes;
-}
-
 std::string unfinished_name(const std::string& output) {
   return output + ".unfinished";
-}
-
-[[noreturn]] void refuse_other_run(const std::string& output) {
-  throw InputError(output +
-                   ": cannot be resumed: it is of other input; restore that, or begin anew with --force");
-}
-
-/// Takes the first record from `left`; empty if none is whole.
-std::string_view take_record(std::string_view& left) {
-  RecordHead head{};
-  if (left.size() < sizeof head) return {};
-  std::memcpy(head.data(), left.data(), sizeof head);
-  const std::string_view bytes = left.substr(sizeof head, head[0]);
-  if (bytes.size() < head[0] || fingerprint(bytes) != head[1]) return {};
-  left.remove_prefix(sizeof head + bytes.size());
-  return bytes;
 }
 
 }  // namespace
@@ -54,13 +28,12 @@ std::string run_mark(const SharedRun& run) {
 }
 
 void require_run(const std::string& output, const SharedRun& run) {
-  if (!bytes_of_file(output).ends_with(run_mark(run))) refuse_other_run(output);
-}
-
-void require_part(const std::string& output, const SharedRun& run, const Part& part) {
-  const PartFile file = read_part_file(output);
-  require_same_run(output, file.run.all_settings(), run.all_settings());
-  if (file.part.number != part.number || file.part.count != part.count) refuse_other_run(output);
+  if (run.part) {
+    require_same_run(output, read_part_file(output).run.all_settings(), run.all_settings());
+  } else if (!bytes_of_file(output).ends_with(run_mark(run))) {
+    throw InputError(output +
+                     ": cannot be resumed: it is of other input; restore that, or begin anew with --force");
+  }
 }
 
 bool is_unfinished(const std::string& output) {
@@ -77,28 +50,19 @@ UnfinishedRun::~UnfinishedRun() = default;
 
 void UnfinishedRun::read(Before before) try {
   const std::string content = bytes_of_file(name_);
-  std::string_view left = content;
-  if (format.starts_with(left)) return;  // killed before it was more than begun
-  if (!left.starts_with(format)) throw InputError(name_ + ": is no file of an interrupted run; rename it");
-  left.remove_prefix(format.size());
-  const std::string_view first = take_record(left);
-  if (first.empty()) return;
+  if (pieces_format.starts_with(content)) return;  // killed before it was more than begun
+  if (!content.starts_with(pieces_format))
+    throw InputError(name_ + ": is no file of an interrupted run; rename it");
+  SavedPieces saved = saved_pieces(content);
+  if (saved.size == 0) return;
   if (before == Before::refuse)
     throw InputError(name_ + ": holds what an interrupted run has computed for " + output_ +
                      "; --resume goes on with it, --force begins anew");
-  std::string kernel;
-  Settings settings;
-  unpack(first, settings, kernel);
-  require_same_run(output_, settings, run_.all_settings());
-  if (kernel != blas_kernel()) other_kernel_ = kernel;
-  for (std::string_view bytes = take_record(left); !bytes.empty(); bytes = take_record(left)) {
-    std::pair<std::string, std::uint64_t> key;
-    std::string piece;
-    unpack(bytes, key, piece);
-    pieces_.insert_or_assign(key, std::move(piece));
-  }
+  require_same_run(output_, saved.run.all_settings(), run_.all_settings());
+  if (saved.blas_kernel != blas_kernel()) other_kernel_ = saved.blas_kernel;
+  pieces_ = std::move(saved.pieces);
   goes_on_ = true;
-  end_ = static_cast<std::int64_t>(content.size() - left.size());
+  end_ = static_cast<std::int64_t>(saved.size);
 } catch (const ArchiveError& error) {
   throw InputError(name_ + ": is damaged: " + error.what() + "; begin anew with --force");
 }
@@ -110,14 +74,14 @@ const std::string* UnfinishedRun::find(const std::string& kind, std::size_t numb
 
 void UnfinishedRun::add(const std::string& kind, std::size_t number, const std::string& bytes) {
   if (!file_) begin();
-  write(record_of(packed(std::pair(kind, static_cast<std::uint64_t>(number)), bytes)));
+  write(record_of_piece(kind, number, bytes));
 }
 
 void UnfinishedRun::begin() {
   file_ = std::make_unique<LockedFile>(name_, output_);
   if (ftruncate(file_->descriptor(), end_) != 0 || lseek(file_->descriptor(), 0, SEEK_END) < 0)
     throw std::system_error(errno, std::generic_category(), name_);
-  if (!goes_on_) write(std::string(format) + record_of(packed(run_.all_settings(), blas_kernel())));
+  if (!goes_on_) write(begin_of_pieces(run_));
 }
 
 void UnfinishedRun::write(const std::string& record) {
@@ -128,6 +92,11 @@ void UnfinishedRun::write(const std::string& record) {
                                "; make room, then the same command with --resume goes on");
     if (written > 0) left.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+void UnfinishedRun::write_part(Existing existing) {
+  if (!file_) begin();
+  write_durably(output_, {bytes_of_file(name_)}, existing);
 }
 
 void UnfinishedRun::end() {

@@ -18,7 +18,6 @@ void evaluate(const LociFile& loci) {
   const double range = loci.highest() - loci.lowest();
   for (const double share : {0.0, 0.3, 0.5, 1.0}) {
     const double p = loci.lowest() + share * range;
-    (void)loci.nearest_node(p);
     try {
       (void)loci.eigenvalues_at(p);
     } catch (const InputError&) {

@@ -65,9 +65,6 @@ struct LociFile : RecordedPath {
   /// The number that a root attribute holds; throws InputError if it is none.
   double number(const std::string& name) const;
 
-  /// The stored point nearest to a parameter value; the file must contain points.
-  std::size_t nearest_node(double parameter_value) const;
-
   using RecordedPath::eigenvalues_at;
   /// Eigenvalues of all modes at each place of the path with this parameter value; several if the path folds.
   /// Throws InputError outside the traced range.

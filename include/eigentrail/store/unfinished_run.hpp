@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,9 +22,8 @@ class LockedFile;
 /// knows what the output is of.
 std::string run_mark(const SharedRun& run);
 
-/// They throw InputError if a file is not the output of the run, or not this part of it.
+/// Throws InputError if a file is not the output of the run, or of its part.
 void require_run(const std::string& output, const SharedRun& run);
-void require_part(const std::string& output, const SharedRun& run, const Part& part);
 
 /// Whether a run has left something for --resume.
 bool is_unfinished(const std::string& output);
@@ -57,6 +55,12 @@ class UnfinishedRun {
   /// Saves a piece; the first one makes the file. Throws std::runtime_error if it cannot be written.
   void add(const std::string& kind, std::size_t number, const std::string& bytes);
 
+  /// Takes pieces that others have computed.
+  void take(PiecesByName pieces) { pieces_.merge(pieces); }
+
+  /// Writes the pieces of a part to the output, as write_durably does.
+  void write_part(Existing existing);
+
   /// Removes the file: the output has all.
   void end();
 
@@ -68,7 +72,7 @@ class UnfinishedRun {
   SharedRun run_;
   bool goes_on_ = false;
   std::string other_kernel_;
-  std::map<std::pair<std::string, std::size_t>, std::string> pieces_;
+  PiecesByName pieces_;
   std::int64_t end_ = 0;  ///< of the records that are whole, in bytes
   std::unique_ptr<LockedFile> file_;
 };

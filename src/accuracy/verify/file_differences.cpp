@@ -58,7 +58,7 @@ class Differences {
       : file_(file),
         stored_(Hdf5File::open(file.loci.path)),
         traced_(Hdf5File::from_image("new trace", traced)) {
-    for (const GrowingDataset& dataset : growing_datasets(*file.setup.model, file.setup.options))
+    for (const LociDataset& dataset : growing_datasets(*file.setup.model, file.setup.options))
       rows_[dataset.name] = dataset.dimensions.front();
   }
 

@@ -6,34 +6,21 @@ class AccuracyView {
     this.file = file;
     this.figure = element("div", { class: "chart accuracy", role: "img", "aria-label": "Error against time" });
     this.work = "wall_time";
-    const options = { wall_time: "wall time, s", factorizations: "complex LU factorizations", points: "points" };
-    const select = element("select", { change: () => { this.work = select.value; this.draw(); } },
-      ...Object.entries(options).map(([value, text]) => element("option", { value, text })));
-    this.options = options;
+    this.options = { wall_time: "wall time, s", factorizations: "complex LU factorizations", points: "points" };
     this.node = element("section", { class: "study" }, element("h2", { text: `Accuracy and cost: ${file.title || file.name}` }),
-      element("div", { class: "controls" }, element("label", {}, "Work as", select)), this.figure,
+      element("div", { class: "controls" }, selectControl("Work as", this.options, this.work, (work) => { this.work = work; this.draw(); })), this.figure,
       element("p", { class: "note", text: "Down and to the left is better. Open marks: runs that ended early." }));
   }
 
   start() { this.draw(); }
 
-  /** Runs by method and order. */
-  methods() {
-    const { method, order } = this.file, groups = new Map();
-    method.forEach((name, i) => {
-      const key = order[i] > 0 ? `${name}, order ${order[i]}` : name;
-      if (!groups.has(key)) groups.set(key, []);
-      groups.get(key).push(i);
-    });
-    return groups;
-  }
-
   draw() {
     const { file, work } = this;
-    const traces = [...this.methods()].map(([name, runs], i) => {
+    const nameOf = (run) => (file.order[run] > 0 ? `${file.method[run]}, order ${file.order[run]}` : file.method[run]);
+    const traces = grouped(file.method.map((_, run) => run), nameOf).map((runs, i) => {
       const shown = runs.filter((k) => file.error[k] > 0 && file[work][k] > 0).sort((a, b) => file[work][a] - file[work][b]);
       const symbol = SYMBOLS[i % SYMBOLS.length];
-      return { type: "scatter", mode: "lines+markers", name: plotText(name), x: shown.map((k) => file[work][k]), y: shown.map((k) => file.error[k]),
+      return { type: "scatter", mode: "lines+markers", name: plotText(nameOf(runs[0])), x: shown.map((k) => file[work][k]), y: shown.map((k) => file.error[k]),
         text: shown.map((k) => `${file.run_tolerance[k] === null ? "" : `tolerance ${number(file.run_tolerance[k])}<br>`}${file.points[k]} points, ${file.factorizations[k]} LU, ${file.spectra[k]} spectra` +
           (file.status[k] === "completed" ? "" : `<br>${plotText(file.status[k])}`)),
         hovertemplate: "error %{y:.2e}<br>%{x:.3g}<br>%{text}<extra>%{fullData.name}</extra>",

@@ -4,11 +4,7 @@
 const MOST_NAMES = 14;  // events, or critical speeds, with names beside their marks
 
 /** Coordinates of an event in a chart. */
-function eventPoint(event, chart, settings) {
-  if (chart === "locus") return [event.real, Math.abs(event.imag) * settings.unitFactor];
-  if (chart === "damping") return [event.parameter, settings.damping === "real" ? event.real : dampingRatio(event.real, event.imag)];
-  return [event.parameter, onFrequencyAxis(frequencyOf([event.real, event.imag], settings), settings)];
-}
+const eventPoint = (event, chart, settings) => CHARTS[chart].at(event.parameter, [event.real, event.imag], settings);
 
 const isShown = (event, file, isActive) => event.real !== null && event.imag !== null &&
   (!event.modes.length || event.modes.some((mode) => isActive({ file, mode })));
@@ -23,10 +19,8 @@ function eventMarks(files, chart, settings, isActive) {
 
 /** One trace of marks per kind of event. */
 function eventTraces(marks, plot, showLegend) {
-  const kinds = new Map();
-  for (const mark of marks) kinds.set(mark.event.kind, [...(kinds.get(mark.event.kind) || []), mark]);
-  return [...kinds].map(([kind, list]) => {
-    const { symbol } = list[0].event;
+  return grouped(marks, ({ event }) => event.kind).map((list) => {
+    const { symbol, kind } = list[0].event;
     return pointTrace(list, { symbol, size: marks.length > 60 ? 7 : 11, color: INK, line: { width: symbol.includes("-open") ? 2 : 0.5, color: INK } },
       { name: kind, legendgroup: kind, showlegend: showLegend, ...plot });
   });
@@ -94,16 +88,12 @@ function operatingLabels(files, view) {
 }
 
 /** The last point { line, point } in the window of every mode. */
-function lineEnds(lines, view) {
-  const ends = new Map();
-  for (const line of lines) {
-    for (const point of line.points) {
-      if (!(point.x >= view.x[0] && point.x <= view.x[1] && point.y >= view.y[0] && point.y <= view.y[1])) continue;
-      const key = `${line.file.index}/${line.mode}`, before = ends.get(key);
-      if (!before || point.x > before.point.x) ends.set(key, { line, point });
-    }
-  }
-  return [...ends.values()];
+function lineEnds(lines, { x, y }) {
+  const isSeen = (point) => point.x >= x[0] && point.x <= x[1] && point.y >= y[0] && point.y <= y[1];
+  return grouped(lines, ({ file, mode }) => [file.index, mode]).flatMap((list) => {
+    const seen = list.flatMap((line) => line.points.filter(isSeen).map((point) => ({ line, point })));
+    return seen.length ? [seen.reduce((a, b) => (b.point.x > a.point.x ? b : a))] : [];
+  });
 }
 
 /** Names of lines that end before the right edge, beside their ends; those of others stand at the edge (nameTrace). */

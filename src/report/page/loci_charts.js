@@ -23,7 +23,7 @@ class LociCharts {
   sampledModes(chart) {
     const hidesReal = chart !== "locus" && !this.settings.realRoots;
     return this.files.flatMap((file) => {
-      const project = CHARTS[chart].project(file, this.settings);
+      const project = projection(chart, file, this.settings);
       return file.path.modes.filter((_, mode) => this.isActive({ file, mode })).map((stretches) => stretches.flatMap((stretch) => {
         const samples = stretch.samples(), stride = Math.max(1, Math.floor(samples.length / 200));
         return [...samples.filter((_, i) => i % stride === 0), stretch.to].map((place) => [place, stretch.at(place)])

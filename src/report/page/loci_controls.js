@@ -1,12 +1,6 @@
 "use strict";
 // The controls above the charts of a LociView, and the key below them.
 
-function selectControl(label, options, value, change) {
-  const node = element("select", { change: () => change(node.value) }, ...Object.entries(options).map(([key, text]) =>
-    element("option", { value: key, text, selected: key === value })));
-  return element("label", {}, label, node);
-}
-
 function checkControl(label, checked, change, title) {
   const node = element("input", { type: "checkbox", checked, change: () => change(node.checked) });
   return element("label", { title }, node, label);
@@ -49,7 +43,7 @@ function lociControls(view) {
 function lociKey(view) {
   const { files, settings, style } = view, several = files.length > 1;
   const has = (test) => files.some(test);
-  const ranges = (kind, whole = true) => has((file) => (file.data.ranges || []).some((range) => range.kind === kind && range.whole === whole));
+  const ranges = (kind, whole = true) => has((file) => (file.data.ranges || []).some((range) => range.kind === kind && range.whole_model === whole));
   const operates = files.find((file) => file.operating.ranges.length), margin = operates && operates.operating.margin;
   const item = (kind, text) => element("span", {}, element("i", { class: kind }), text);
   const entries = [

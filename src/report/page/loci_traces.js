@@ -4,20 +4,15 @@
 const PARAMETER_COLOURS = 24;
 const MOST_MARKED = 14;    // modes with five marks on their lines; more have two
 
-/** The three charts: their axes and the coordinates of an eigenvalue in them. `settings`: those of LociView. */
+/** The three charts: their axes, and the coordinates of an eigenvalue s at a value p of the parameter. `settings`: those of LociView. */
 const CHARTS = {
-  frequency: {
-    xaxis: "xaxis", yaxis: "yaxis",
-    project: (file, settings) => (place, [re, im]) =>
-      [file.path.parameterAt(place), onFrequencyAxis(frequencyOf([re, im], settings), settings)],
-  },
-  damping: {
-    xaxis: "xaxis", yaxis: "yaxis2",
-    project: (file, settings) => (place, [re, im]) =>
-      [file.path.parameterAt(place), settings.damping === "real" ? re : dampingRatio(re, im)],
-  },
-  locus: { xaxis: "xaxis", yaxis: "yaxis", project: (file, settings) => (place, [re, im]) => [re, im * settings.unitFactor] },
+  frequency: { xaxis: "xaxis", yaxis: "yaxis", at: (p, s, settings) => [p, onFrequencyAxis(frequencyOf(s, settings), settings)] },
+  damping: { xaxis: "xaxis", yaxis: "yaxis2", at: (p, s, settings) => [p, settings.damping === "real" ? s[0] : dampingRatio(...s)] },
+  locus: { xaxis: "xaxis", yaxis: "yaxis", at: (p, [re, im], settings) => [re, Math.abs(im) * settings.unitFactor] },
 };
+
+/** The coordinates in a chart of an eigenvalue at a place of the path of a file. */
+const projection = (chart, file, settings) => (place, s) => CHARTS[chart].at(file.path.parameterAt(place), s, settings);
 
 const LEAST_FREQUENCY = 1e-12;  // in the unit of the axis; smaller ones are drawn there on a logarithmic axis
 
@@ -43,7 +38,7 @@ function errorScale(chart, settings) {
 function chartLines(files, chart, settings, view, spacing) {
   const hidesReal = chart !== "locus" && !settings.realRoots, lines = [];
   for (const file of files) {
-    const project = CHARTS[chart].project(file, settings);
+    const project = projection(chart, file, settings);
     file.path.modes.forEach((stretches, mode) => {
       const cuts = file.data.modes[mode].uncertified.flatMap((ends) => ends.map((end) => file.path.places[end]));
       for (const stretch of stretches) {
@@ -93,12 +88,8 @@ function underTraces(lines, isActive, axes) {
 
 /** Traces of the lines in the colour and dash of their mode or file. If some modes are isolated, all others are faint. */
 function modeTraces(lines, isActive, style, axes) {
-  const traces = underTraces(lines, isActive, axes), byMode = new Map();
-  for (const line of lines.filter(isActive)) {
-    const key = `${line.file.index}/${line.mode}`;
-    byMode.set(key, [...(byMode.get(key) || []), line]);
-  }
-  for (const list of byMode.values()) {
+  const traces = underTraces(lines, isActive, axes);
+  for (const list of grouped(lines.filter(isActive), ({ file, mode }) => [file.index, mode])) {
     const [{ file, mode }] = list, { colour, width, dash } = style(file, mode);
     for (const backward of [false, true]) {
       const points = pointsOf(list, (part) => isBackward(part) === backward);
@@ -140,16 +131,11 @@ const faded = (colour) => `rgba(${[1, 3, 5].map((at) => parseInt(colour.slice(at
 
 /** Bars from end to end of the intervals in which events lie as far as the errors of the data tell. */
 function intervalTrace(files, chart, settings, isActive, axes) {
-  const x = [], y = [];
-  for (const file of files) {
-    for (const event of file.data.events) {
-      if (!event.interval || event.real === null || (event.modes.length && !event.modes.some((mode) => isActive({ file, mode })))) continue;
-      const height = eventPoint(event, chart, settings)[1];
-      x.push(event.interval[0], event.interval[1], null);
-      y.push(height, height, null);
-    }
-  }
-  return x.length ? [{ x, y, type: "scatter", mode: "lines+markers", line: { color: INK, width: 1.4 }, marker: { symbol: "line-ns-open", size: 9, color: INK },
+  const bars = files.flatMap((file) => file.data.events.filter((event) => event.interval && isShown(event, file, isActive)).map((event) => {
+    const [, y] = eventPoint(event, chart, settings);
+    return event.interval.map((x) => ({ x, y }));
+  }));
+  return bars.length ? [{ ...joined(bars), type: "scatter", mode: "lines+markers", line: { color: INK, width: 1.4 }, marker: { symbol: "line-ns-open", size: 9, color: INK },
     hoverinfo: "skip", showlegend: false, meta: { intervals: true }, ...axes }] : [];
 }
 
@@ -157,7 +143,7 @@ function intervalTrace(files, chart, settings, isActive, axes) {
 function markTrace(lines, isActive, style, axes) {
   const active = lines.filter(isActive), n = active.length > MOST_MARKED ? 2 : 5;
   const marks = active.flatMap((line) => {
-    const point = pointOn(line.stretch, CHARTS[axes.chart].project(line.file, axes.settings)), look = style(line.file, line.mode);
+    const point = pointOn(line.stretch, projection(axes.chart, line.file, axes.settings)), look = style(line.file, line.mode);
     const from = line.points[0].place, to = line.points[line.points.length - 1].place;
     return Array.from({ length: n }, (_, i) => ({ ...look, ...point(from + (to - from) * ((i + 0.5 + 0.13 * ((line.mode * 3 + line.file.index) % 5 - 2)) / n)) }));
   });
@@ -173,7 +159,7 @@ function rangeShapes(files) {
   const shapes = [];
   files.forEach((file, row) => {
     for (const range of file.data.ranges || []) {
-      const colour = range.whole ? RANGE_COLOURS[range.kind] : PARTIAL_COLOUR;
+      const colour = range.whole_model ? RANGE_COLOURS[range.kind] : PARTIAL_COLOUR;
       const several = files.length > 1;
       const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: STRIP_OPACITY[range.kind] }
         : { y0: 0, y1: 1, fillcolor: colour };

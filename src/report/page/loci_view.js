@@ -123,8 +123,8 @@ class LociView extends LociCharts {
       figure.querySelectorAll(".overlay-dot").forEach((dot) => dot.remove());
       const hidden = s && !this.settings.realRoots && figure === this.campbell && file.isReal(mode, place);
       for (const chart of s && !hidden ? charts : []) {
-        const { xaxis, yaxis, project } = CHARTS[chart];
-        const at = toPixels(figure, xaxis, yaxis, ...project(file, this.settings)(place, s));
+        const { xaxis, yaxis } = CHARTS[chart];
+        const at = toPixels(figure, xaxis, yaxis, ...projection(chart, file, this.settings)(place, s));
         if (insideAxes(figure, xaxis, yaxis, at)) figure.append(element("div", { class: "overlay-dot", style: `left:${at[0]}px;top:${at[1]}px` }));
       }
     }

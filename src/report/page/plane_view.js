@@ -18,10 +18,8 @@ class PlaneView {
     [this.first, this.second] = [files[0].first, files[0].second];
     this.quantity = "unstable";
     this.figure = element("div", { class: "chart plane", role: "img", "aria-label": "Stability over two parameters" });
-    const select = element("select", { change: () => { this.quantity = select.value; this.draw(); } },
-      ...Object.entries(MAP_QUANTITIES).map(([value, text]) => element("option", { value, text })));
     this.node = element("section", { class: "planes" }, element("h2", { text: `Stability over ${this.first.name} and ${this.second.name}` }),
-      this.maps.length ? element("div", { class: "controls" }, element("label", {}, "Map of", select)) : "", this.figure, this.note(), ...this.tables());
+      this.maps.length ? element("div", { class: "controls" }, selectControl("Map of", MAP_QUANTITIES, this.quantity, (quantity) => { this.quantity = quantity; this.draw(); })) : "", this.figure, this.note(), ...this.tables());
   }
 
   start() { this.draw(); }

@@ -15,17 +15,6 @@ function summary(file) {
   return `${file.name}: ${what}${attributes.status ? `, ${attributes.status}` : ""}${attributes.message ? `: ${attributes.message}` : ""}`;
 }
 
-/** Groups of items with the same key, in the order of their first items. */
-function grouped(items, key) {
-  const groups = new Map();
-  for (const item of items) {
-    const name = JSON.stringify(key(item));
-    if (!groups.has(name)) groups.set(name, []);
-    groups.get(name).push(item);
-  }
-  return [...groups.values()];
-}
-
 /** Changes the width of the figures from that of the window to that of the sheet while the page is printed. */
 function fitToPaper(views) {
   const resize = (size) => {

@@ -30,7 +30,7 @@ function eventTable(files, choose) {
 }
 
 function rangeEnd(file, end, kind) {
-  const mode = end.mode >= 0 ? `, ${file.modeText(end.mode)}` : "";
+  const mode = end.mode ? `, ${file.modeText(end.mode - 1)}` : "";
   const margin = kind === "stable" && end.margin ? `, margin ${number(end.margin, 4)}` : "";
   return `${number(file.parameterValue(end.parameter), 12)} (${end.cause}${mode}${margin})`;
 }
@@ -38,7 +38,7 @@ function rangeEnd(file, end, kind) {
 function rangeTable(files) {
   const several = files.length > 1;
   const rows = files.flatMap((file) => (file.data.ranges || []).map((range) => element("tr", {},
-    ...(several ? [cell(file.data.name)] : []), cell(range.whole ? range.kind : `${range.kind} among the followed modes`), cell(rangeEnd(file, range.from, range.kind), "words"), cell(rangeEnd(file, range.to, range.kind), "words"),
+    ...(several ? [cell(file.data.name)] : []), cell(range.whole_model ? range.kind : `${range.kind} among the followed modes`), cell(rangeEnd(file, range.from, range.kind), "words"), cell(rangeEnd(file, range.to, range.kind), "words"),
     cell(range.kind === "stable" ? `${number(range.least_margin, 4)} to ${number(range.largest_margin, 4)}, largest at ${number(file.parameterValue(range.largest_at), 6)}` : "", "words"))));
   if (files.every((file) => !file.data.ranges)) return element("p", { class: "note", text: "The trace ended before stable ranges were written." });
   if (!rows.length) return element("p", { class: "note", text: "No stable range: some mode grows everywhere." });

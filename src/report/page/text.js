@@ -1,5 +1,5 @@
 "use strict";
-// Creates elements and texts. Texts from files become text nodes, never markup.
+// Creates elements and texts, and groups items. Texts from files become text nodes, never markup.
 
 /** Creates an element with children. Attributes that are functions become listeners; "text" is the text content. */
 function element(tag, attributes = {}, ...children) {
@@ -12,6 +12,13 @@ function element(tag, attributes = {}, ...children) {
   }
   node.append(...children);
   return node;
+}
+
+/** A list of choices { value: text }, which calls `change` with the value. */
+function selectControl(label, options, value, change) {
+  const node = element("select", { change: () => change(node.value) }, ...Object.entries(options).map(([key, text]) =>
+    element("option", { value: key, text, selected: key === value })));
+  return element("label", {}, label, node);
 }
 
 const SAME_AS_ZERO = 1e-9;
@@ -65,4 +72,15 @@ function withUnit(text, unit) {
 
 function axisName(axis) {
   return plotText(axis.unit && axis.unit !== "1" ? `${axis.name}, ${axis.unit}` : axis.name);
+}
+
+/** Groups of items with the same key, in the order of their first items. */
+function grouped(items, key) {
+  const groups = new Map();
+  for (const item of items) {
+    const name = JSON.stringify(key(item));
+    if (!groups.has(name)) groups.set(name, []);
+    groups.get(name).push(item);
+  }
+  return [...groups.values()];
 }
