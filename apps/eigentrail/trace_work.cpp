@@ -46,10 +46,6 @@ void print_work(const TraceResult& result) {
         static_cast<unsigned long long>(counts.modes.modal_solves),
         static_cast<unsigned long long>(counts.certificate_bases));
   }
-  if (counts.modes.passed > 0) {
-    std::printf("        %llu times a mode passed a point as its dense output went on\n",
-                static_cast<unsigned long long>(counts.modes.passed));
-  }
   std::printf(
       "  time  %s s: equilibrium %s, reduction %s, modes %s, differentiation %s, certificate %s, matching "
       "%s, events "

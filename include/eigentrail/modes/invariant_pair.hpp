@@ -32,7 +32,6 @@ struct CorrectorOptions {
   /// Ratio of two corrections above which the equations are factored again, 0 < . < 1.
   double refactor_contraction = 0.1;
   int max_iterations = 30;         ///< >= 1
-  double passing_error = 0.0;      ///< a continued mode with a smaller relative error is not corrected, >= 0
   double series_accuracy = 1e-15;  ///< relative accuracy of every coefficient of the series of a single mode
 };
 
@@ -41,7 +40,6 @@ struct ModeCounts {
   std::uint64_t factorizations = 0;  ///< LU of size n + k, in real numbers if the equations are real
   std::uint64_t iterations = 0;      ///< Newton corrections
   std::uint64_t solves = 0;          ///< back-substitutions for all purposes
-  std::uint64_t passed = 0;          ///< modes that were accurate enough without correction
   /// modal bases that serve all modes at once (all_pairs.hpp, symmetric_pairs.hpp)
   std::uint64_t modal_bases = 0;
   std::uint64_t modal_solves = 0;  ///< solutions for all modes at once with these bases
@@ -178,9 +176,6 @@ void settle_accuracy(const PairSensitivity& sensitivity, double scale, double si
 
 /// The factors of the pair, or new factors at the pair if it has none.
 std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair);
-
-/// |residual| / (magnitude |Z|) of a pair as it is, without correction.
-double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair);
 
 /// Rounding error of the eigenvalue of a block of one mode: the Newton correction whose residual is formed in
 /// extended precision (long double). It gives the small real part of an eigenvalue near the imaginary axis to
