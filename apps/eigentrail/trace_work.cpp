@@ -46,10 +46,6 @@ void print_work(const TraceResult& result) {
         static_cast<unsigned long long>(counts.modes.modal_solves),
         static_cast<unsigned long long>(counts.certificate_bases));
   }
-  if (counts.modes.passed > 0) {
-    std::printf("        %llu times a mode passed a point as its dense output went on\n",
-                static_cast<unsigned long long>(counts.modes.passed));
-  }
   std::string shares;
   for (const auto& [what, seconds] : {std::pair("equilibrium", counts.equilibrium_seconds),
                                       {"reduction", counts.reduction_seconds},

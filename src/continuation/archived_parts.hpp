@@ -12,7 +12,7 @@ Members<3> archived(const Path*);
 Members<2> archived(const PairSeries*);
 Members<3> archived(const EquilibriumGuess*);
 Members<2> archived(const EvaluationCounts*);
-Members<6> archived(const ModeCounts*);
+Members<5> archived(const ModeCounts*);
 Members<18> archived(const RunCounts*);
 
 }  // namespace eigentrail

@@ -13,13 +13,14 @@ RealLu::RealLu(Matrix A) : factors_(std::move(A)), pivots_(static_cast<std::size
   LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
 }
 
-void RealLu::solve(char form, ComplexVector& b) const {
+void RealLu::solve(char form, Eigen::Ref<ComplexMatrix> B) const {
   const auto n = static_cast<lapack_int>(factors_.rows());
-  Matrix parts(b.size(), 2);
-  parts << b.real(), b.imag();
-  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, form, n, 2, factors_.data(), n, pivots_.data(), parts.data(), n);
-  b.real() = parts.col(0);
-  b.imag() = parts.col(1);
+  Matrix parts(B.rows(), 2 * B.cols());
+  parts << B.real(), B.imag();
+  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, form, n, static_cast<lapack_int>(parts.cols()), factors_.data(), n,
+                      pivots_.data(), parts.data(), n);
+  B.real() = parts.leftCols(B.cols());
+  B.imag() = parts.rightCols(B.cols());
 }
 
 }  // namespace eigentrail

@@ -82,30 +82,26 @@ bool BorderedBand::is_accurate() const {
   return null_.allFinite() && null_.cwiseAbs().maxCoeff() <= largest_growth;
 }
 
-void BorderedBand::solve_in_place(ComplexVector& b) const {
-  ComplexVector y = b.head(n_);
-  solve_within(y);
-  const ComplexVector open = b.tail(inverse_.rows()) - rows_ * y;
-  const ComplexVector share = inverse_.lazyProduct(open);
-  b(kept_) = y + null_.lazyProduct(share);
-  b(chosen_) = share;
+void BorderedBand::solve_in_place(Eigen::Ref<ComplexMatrix> B) const {
+  for (auto b : B.colwise()) {
+    ComplexVector y = b.head(n_);
+    solve_within(y);
+    const ComplexVector open = b.tail(inverse_.rows()) - rows_ * y;
+    const ComplexVector share = inverse_.lazyProduct(open);
+    b(kept_) = y + null_.lazyProduct(share);
+    b(chosen_) = share;
+  }
 }
 
-void BorderedBand::solve_adjoint_in_place(ComplexVector& b) const {
-  ComplexVector y = b(kept_);
-  const ComplexVector open = b(chosen_) + null_.adjoint() * y;
-  const ComplexVector share = inverse_.adjoint().lazyProduct(open);
-  y -= rows_.adjoint().lazyProduct(share);
-  solve_adjoint_within(y);
-  b << y, share;
-}
-
-void BorderedBand::solve_in_place(ComplexMatrix& B) const {
-  for_each_column(B, [this](ComplexVector& b) { solve_in_place(b); });
-}
-
-void BorderedBand::solve_adjoint_in_place(ComplexMatrix& B) const {
-  for_each_column(B, [this](ComplexVector& b) { solve_adjoint_in_place(b); });
+void BorderedBand::solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const {
+  for (auto b : B.colwise()) {
+    ComplexVector y = b(kept_);
+    const ComplexVector open = b(chosen_) + null_.adjoint() * y;
+    const ComplexVector share = inverse_.adjoint().lazyProduct(open);
+    y -= rows_.adjoint().lazyProduct(share);
+    solve_adjoint_within(y);
+    b << y, share;
+  }
 }
 
 void BorderedBand::solve_within(ComplexVector& b) const {

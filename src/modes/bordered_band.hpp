@@ -31,12 +31,9 @@ class BorderedBand {
   /// may have one vector.
   bool is_accurate() const;
 
-  /// Overwrites b (n + k) with the solution, or with that of the adjoint equations.
-  void solve_in_place(ComplexVector& b) const;
-  void solve_adjoint_in_place(ComplexVector& b) const;
-  /// The same for all columns of B.
-  void solve_in_place(ComplexMatrix& B) const;
-  void solve_adjoint_in_place(ComplexMatrix& B) const;
+  /// Overwrites the columns of B, of n + k rows, with the solutions, or with those of the adjoint equations.
+  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const;
+  void solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const;
 
  private:
   void choose_columns(const ComplexMatrix& Z);

@@ -59,7 +59,6 @@ ModeCounts& ModeCounts::operator+=(const ModeCounts& other) {
   factorizations += other.factorizations;
   iterations += other.iterations;
   solves += other.solves;
-  passed += other.passed;
   modal_bases += other.modal_bases;
   modal_solves += other.modal_solves;
   return *this;
@@ -108,14 +107,11 @@ double residual_scale(const PencilAtPoint& pencil, const InvariantPair& pair) {
   return pencil.magnitude(size) * pair.Z.norm();
 }
 
-}  // namespace
-
+/// |residual| / (magnitude |Z|) of a pair.
 double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair) {
   const double scale = residual_scale(pencil, pair);
   return scale > 0.0 ? pencil.residual(pair.Z, pair.Lambda).norm() / scale : 0.0;
 }
-
-namespace {
 
 /// Relative size of a correction up to which it may be rounding, for a pencil whose terms are not much larger
 /// than the change of the pencil with its eigenvalue.

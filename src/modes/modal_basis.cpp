@@ -54,19 +54,6 @@ std::optional<Matrix> inverse_of_leading(const PencilAtPoint& pencil, const std:
 
 }  // namespace
 
-ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
-  if (B.isDiagonal(0.0)) return B.diagonal().asDiagonal() * Z;
-  const Eigen::Index m = Z.cols();
-  Matrix parts(Z.rows(), 2 * m);
-  parts.leftCols(m) = Z.real();
-  parts.rightCols(m) = Z.imag();
-  const Matrix both = product(B, parts);
-  ComplexMatrix result(B.rows(), m);
-  result.real() = both.leftCols(m);
-  result.imag() = both.rightCols(m);
-  return result;
-}
-
 std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const PairSet& pairs,
                                            std::optional<Matrix>& leading_inverse) {
   const Eigen::Index n = pencil.size();
@@ -134,7 +121,7 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
 }
 
 ComplexMatrix ModalBasis::coordinates(const ComplexMatrix& R) const {
-  const ComplexMatrix g = multiply_many(left_, R);
+  const ComplexMatrix g = multiply(left_, R);
   ComplexMatrix G(g.rows(), g.cols());
   for (std::size_t i = 0; i < real_row_.size(); ++i) {
     const Eigen::Index row = real_row_[i];
@@ -162,7 +149,7 @@ ComplexMatrix ModalBasis::vectors(const ComplexMatrix& U) const {
     u.row(row) = U.row(column) + U.row(conjugate_[i]);
     u.row(row + 1) = Complex(0.0, 1.0) * (U.row(column) - U.row(conjugate_[i]));
   }
-  return multiply_many(right_, u);
+  return multiply(right_, u);
 }
 
 void ModalBasis::prepare_division(const PairSet& pairs) {

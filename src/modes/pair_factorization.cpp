@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/columns.hpp"
 #include "eigentrail/modes/invariant_pair.hpp"
 #include "modes/bordered_band.hpp"
 
@@ -15,14 +14,6 @@ namespace {
 /// Relative imaginary parts below this are neglected in the real factors. The error then decreases by about
 /// this factor per correction.
 constexpr double unreal = 1e-6;
-
-/// Overwrites b with what `map` makes of it as a matrix of one column.
-template <class Map>
-void as_column(ComplexVector& b, Map map) {
-  ComplexMatrix B = b;
-  map(B);
-  b = B;
-}
 
 /// Phase of a vector that is real up to a phase; empty if it is not.
 std::optional<Complex> phase_of(const ComplexVector& z) {
@@ -72,30 +63,22 @@ BorderedLu::BorderedLu(const PencilAtPoint& pencil, Complex mu, const ComplexMat
   if (!banded_) lu_.emplace(bordered_matrix(pencil, mu, X, Y, D));
 }
 
-template <class Vectors, class Solve>
-void BorderedLu::solve(Vectors& b, const Solve& by) const {
-  if (banded_) return by(*banded_, b);
-  if (complex_sign_ == 0) return by(*lu_, b);
-  Vectors within = restricted(b);
+template <class Solve>
+void BorderedLu::solve(Eigen::Ref<ComplexMatrix> B, const Solve& by) const {
+  if (banded_) return by(*banded_, B);
+  if (complex_sign_ == 0) return by(*lu_, B);
+  ComplexMatrix within = restricted(B);
   by(*lu_, within);
-  b.topRows(n_) = from_complex_coordinates(within.topRows(n_ / 2), complex_sign_);
-  b.bottomRows(k_) = within.bottomRows(k_);
+  B.topRows(n_) = from_complex_coordinates(within.topRows(n_ / 2), complex_sign_);
+  B.bottomRows(k_) = within.bottomRows(k_);
 }
 
-void BorderedLu::solve_in_place(ComplexVector& b) const {
-  solve(b, [](const auto& factors, ComplexVector& x) { factors.solve_in_place(x); });
+void BorderedLu::solve_in_place(Eigen::Ref<ComplexMatrix> B) const {
+  solve(B, [](const auto& factors, Eigen::Ref<ComplexMatrix> X) { factors.solve_in_place(X); });
 }
 
-void BorderedLu::solve_in_place(ComplexMatrix& B) const {
-  solve(B, [](const auto& factors, ComplexMatrix& X) { factors.solve_in_place(X); });
-}
-
-void BorderedLu::solve_adjoint_in_place(ComplexVector& b) const {
-  solve(b, [](const auto& factors, ComplexVector& x) { factors.solve_adjoint_in_place(x); });
-}
-
-void BorderedLu::solve_adjoint_in_place(ComplexMatrix& B) const {
-  solve(B, [](const auto& factors, ComplexMatrix& X) { factors.solve_adjoint_in_place(X); });
+void BorderedLu::solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const {
+  solve(B, [](const auto& factors, Eigen::Ref<ComplexMatrix> X) { factors.solve_adjoint_in_place(X); });
 }
 
 ComplexMatrix BorderedLu::restricted(const ComplexMatrix& b) const {
@@ -168,53 +151,40 @@ void PairFactorization::solve(const ComplexMatrix& R, const ComplexMatrix& N, Co
   dLambda = b.tail(N.size()).reshaped(N.rows(), N.cols());
 }
 
-void PairFactorization::solve_in_place(ComplexVector& b) const {
-  if (coupling_) return as_column(b, [this](ComplexMatrix& B) { solve_block(B); });
-  const Eigen::Index n = b.size() - 1;
-  b[n] *= border_scale_;
-  if (real_) {
-    b.head(n) *= std::conj(real_->phase);
-    real_->lu.solve_in_place(b);
-    b.head(n) *= real_->phase;
-    b[n] *= std::conj(real_->direction);
-  } else {
-    columns_.front().solve_in_place(b);
-  }
-  b[n] *= slope_scale_;
-}
-
-void PairFactorization::solve_adjoint_in_place(ComplexVector& b) const {
-  if (coupling_) return as_column(b, [this](ComplexMatrix& B) { solve_block_adjoint(B); });
-  const Eigen::Index n = b.size() - 1;
-  b[n] *= slope_scale_;
-  if (real_) {
-    b.head(n) *= std::conj(real_->phase);
-    b[n] *= real_->direction;
-    real_->lu.solve_adjoint_in_place(b);
-    b.head(n) *= real_->phase;
-  } else {
-    columns_.front().solve_adjoint_in_place(b);
-  }
-  b[n] *= border_scale_;
-}
-
-void PairFactorization::solve_in_place(ComplexMatrix& B) const {
+void PairFactorization::solve_in_place(Eigen::Ref<ComplexMatrix> B) const {
   if (coupling_) return solve_block(B);
-  if (real_) return for_each_column(B, [this](ComplexVector& b) { solve_in_place(b); });
-  B.bottomRows(1) *= border_scale_;
-  columns_.front().solve_in_place(B);
-  B.bottomRows(1) *= slope_scale_;
+  auto vectors = B.topRows(B.rows() - 1);
+  auto last = B.bottomRows(1);
+  last *= border_scale_;
+  if (real_) {
+    vectors *= std::conj(real_->phase);
+    real_->lu.solve_in_place(B);
+    vectors *= real_->phase;
+    last *= std::conj(real_->direction);
+  } else {
+    columns_.front().solve_in_place(B);
+  }
+  last *= slope_scale_;
 }
 
-void PairFactorization::solve_adjoint_in_place(ComplexMatrix& B) const {
+void PairFactorization::solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const {
   if (coupling_) return solve_block_adjoint(B);
-  if (real_) return for_each_column(B, [this](ComplexVector& b) { solve_adjoint_in_place(b); });
-  B.bottomRows(1) *= slope_scale_;
-  columns_.front().solve_adjoint_in_place(B);
-  B.bottomRows(1) *= border_scale_;
+  auto vectors = B.topRows(B.rows() - 1);
+  auto last = B.bottomRows(1);
+  last *= slope_scale_;
+  if (real_) {
+    vectors *= std::conj(real_->phase);
+    last *= real_->direction;
+    real_->lu.solve_adjoint_in_place(B);
+    vectors *= real_->phase;
+  } else {
+    columns_.front().solve_adjoint_in_place(B);
+  }
+  last *= border_scale_;
 }
 
-PairFactorization::InSchurForm PairFactorization::in_schur_form(const ComplexMatrix& B) const {
+PairFactorization::InSchurForm PairFactorization::in_schur_form(
+    const Eigen::Ref<const ComplexMatrix>& B) const {
   const ComplexMatrix& U = coupling_->U;
   const Eigen::Index n = coupling_->Z.rows();
   const Eigen::Index k = U.rows();
@@ -230,7 +200,7 @@ PairFactorization::InSchurForm PairFactorization::in_schur_form(const ComplexMat
   return columns;
 }
 
-void PairFactorization::from_schur_form(const InSchurForm& columns, ComplexMatrix& B) const {
+void PairFactorization::from_schur_form(const InSchurForm& columns, Eigen::Ref<ComplexMatrix> B) const {
   const ComplexMatrix& U = coupling_->U;
   const Eigen::Index n = coupling_->Z.rows();
   const Eigen::Index k = U.rows();
@@ -245,7 +215,7 @@ void PairFactorization::from_schur_form(const InSchurForm& columns, ComplexMatri
   }
 }
 
-void PairFactorization::solve_block(ComplexMatrix& B) const {
+void PairFactorization::solve_block(Eigen::Ref<ComplexMatrix> B) const {
   const auto& [M, C, bands, U, T, T2, Z, W1] = *coupling_;
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();
@@ -275,7 +245,7 @@ void PairFactorization::solve_block(ComplexMatrix& B) const {
   from_schur_form(columns, B);
 }
 
-void PairFactorization::solve_block_adjoint(ComplexMatrix& B) const {
+void PairFactorization::solve_block_adjoint(Eigen::Ref<ComplexMatrix> B) const {
   const auto& [M, C, bands, U, T, T2, Z, W1] = *coupling_;
   const Eigen::Index n = Z.rows();
   const Eigen::Index k = Z.cols();

@@ -60,7 +60,6 @@ void write_summary(Hdf5Writer& file, const TraceResult& result) {
   count("mode_factorizations", result.counts.modes.factorizations);
   count("mode_iterations", result.counts.modes.iterations);
   count("mode_solves", result.counts.modes.solves);
-  count("modes_passed", result.counts.modes.passed);
   count("modal_bases", result.counts.modes.modal_bases);
   count("modal_solves", result.counts.modes.modal_solves);
   count("certificate_factorizations", result.counts.certificate_factorizations);

@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "continuation/planted_points.hpp"
-#include "continuation/point/continued_mode.hpp"
 #include "continuation/point/point_solver.hpp"
 #include "continuation/step/modal_certificate.hpp"
 #include "core/matrix_series.hpp"
@@ -432,44 +431,6 @@ TEST(ModalCertificate, ClosesForATrackInTheOtherChart) {
     track.series.Lambda = inverse_series(track.series.Lambda);
   }
   EXPECT_EQ(certified_together(step), std::vector<bool>(3, true));
-}
-
-TEST(ContinuedMode, IsFarMoreAccurateThanTheSeriesOfOnePoint) {
-  Step first(smooth_family(), 0.2, 0.3);
-  for (std::size_t i = 0; i < 3; ++i) first.left.tracks[i].lineage = first.right.tracks[i].lineage = i + 1;
-  Step there(smooth_family(), 0.3, 0.4);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto mode = continue_mode(first.left.tracks, first.right, i, first.length, 0.1);
-    ASSERT_TRUE(mode);
-    const Complex exact = there.right.s(i, 0);
-    Complex taylor = 0.0;
-    for (Eigen::Index k = first.right.tracks[i].functions.cols(); k-- > 0;)
-      taylor = taylor * 0.1 + first.right.s(i, k);
-    EXPECT_LT(std::abs(mode->pair.eigenvalue() - exact), 0.1 * std::abs(taylor - exact)) << i;
-    EXPECT_LT(std::abs(mode->series.Lambda[1](0, 0) - there.right.s(i, 1)), 1e-5) << i;
-    const ComplexVector v = mode->series.Z[0].col(0);
-    const ComplexVector w = there.right.tracks[i].series.Z[0].col(0);
-    EXPECT_NEAR(std::abs(v.dot(w)), v.norm() * w.norm(), 1e-9) << i;
-  }
-}
-
-TEST(ContinuedMode, IsRefusedForBlocksPassesAndTracksThatWereNotThere) {
-  Step step(smooth_family(), 0.2, 0.3);
-  const auto continued = [&] { return continue_mode(step.left.tracks, step.right, 0, step.length, 0.1); };
-  EXPECT_FALSE(continued()) << "not numbered";
-  step.left.tracks[0].lineage = step.right.tracks[0].lineage = 7;
-  EXPECT_TRUE(continued());
-  step.right.tracks[0].passed = true;
-  EXPECT_FALSE(continued()) << "tells nothing new";
-  step.right.tracks[0].passed = false;
-  step.left.tracks[0].passed = true;
-  EXPECT_FALSE(continued());
-  step.left.tracks[0].passed = false;
-  step.left.tracks[0].lineage = 8;
-  EXPECT_FALSE(continued()) << "another one";
-  step.join(0.3);
-  step.left.tracks[0].lineage = step.right.tracks[0].lineage = 9;
-  EXPECT_FALSE(continued()) << "a block";
 }
 
 TEST(StepPencil, HasTheEigenvaluesOfThePathBetweenItsPoints) {

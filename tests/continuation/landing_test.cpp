@@ -12,14 +12,12 @@
 namespace eigentrail::test::landing_test {
 namespace {
 
-constexpr double reach = 3.0;
-
 /// A planted point from which a step is attempted and landed.
 struct From {
   From(Planted family, double p, const std::vector<Together>& tracks)
       : planted(std::move(family)), origin{planted.family.point(p, tracks)} {}
   LandedStep land(double h, bool on_any_terms = false) {
-    StepSolver solver(planted.solver, origin, reach);
+    StepSolver solver(planted.solver, origin);
     return eigentrail::land(solver, solver.attempt(h).step.value(), on_any_terms).value();
   }
   PlantedSearch planted;
@@ -184,7 +182,7 @@ TEST(Land, BetweenTwoMeetingsEndsHalfWay) {
 
 TEST(Land, CountsItsWorkAsThatOfEvents) {
   From from(towards_the_axis(0.5), 0.6, pair_at(0.5, 0.6));
-  StepSolver solver(from.planted.solver, from.origin, reach);
+  StepSolver solver(from.planted.solver, from.origin);
   const Step step = solver.attempt(0.3).step.value();
   RunCounts& counts = from.planted.family.counts;
   const std::uint64_t modes = counts.modes.factorizations;
@@ -201,7 +199,7 @@ struct Pendulum : OnPath {
   }
   std::optional<LandedStep> land(double h) {
     StepOrigin origin{node};
-    StepSolver solver(points, origin, reach);
+    StepSolver solver(points, origin);
     AttemptedStep attempted = solver.attempt(h);
     if (!attempted.step) return std::nullopt;
     return eigentrail::land(solver, std::move(*attempted.step), false);

@@ -83,10 +83,10 @@ std::string bits_of(const TraceResult& result) {
   const RunCounts& counts = result.counts;
   bits.text += std::to_string(result.mode_steps) + ' ' + std::to_string(result.certified_steps) + ' ';
   for (const std::uint64_t count :
-       {counts.modes.factorizations, counts.modes.iterations, counts.modes.solves, counts.modes.passed,
-        counts.modes.modal_bases, counts.modes.modal_solves, counts.equilibrium_iterations,
-        counts.equilibrium_factorizations, counts.spectra, counts.event_factorizations,
-        counts.certificate_factorizations, counts.certificate_bases})
+       {counts.modes.factorizations, counts.modes.iterations, counts.modes.solves, counts.modes.modal_bases,
+        counts.modes.modal_solves, counts.equilibrium_iterations, counts.equilibrium_factorizations,
+        counts.spectra, counts.event_factorizations, counts.certificate_factorizations,
+        counts.certificate_bases})
     bits.text += std::to_string(count) + ' ';
   for (const auto* evaluations : {&counts.evaluations.residual, &counts.evaluations.linearization}) {
     for (const std::uint64_t count : *evaluations) bits.text += std::to_string(count) + ' ';

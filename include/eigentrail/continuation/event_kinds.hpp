@@ -45,9 +45,6 @@ std::span<const EventKindInfo> event_kinds();
 /// The row of a kind. Throws std::out_of_range for a value that is no kind.
 const EventKindInfo& event_kind(EventKind kind);
 
-/// Whether a value, for example from a damaged file, is a kind.
-bool is_event_kind(EventKind kind);
-
 /// The kind of that name, or null. A file of another version of the program may have kinds that this version
 /// does not know.
 const EventKindInfo* find_event_kind(std::string_view name);

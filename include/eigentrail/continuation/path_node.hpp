@@ -45,7 +45,6 @@ struct Track {
   double inseparable = 0.0;
   /// Whether the block has been formed or enlarged for that reason and has not been certified since.
   bool unproven = false;
-  bool passed = false;   ///< accepted as extrapolated from the last step, without correction
   std::vector<int> met;  ///< indices of the roots that coincide at the point or have a narrow veering there
   /// Distance from the point, in the path's coordinate, within which rounding hides the members that meet
   /// there: a k-fold eigenvalue is known to the k-th root of rounding.

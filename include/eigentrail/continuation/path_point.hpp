@@ -39,19 +39,11 @@ EvaluationFault equilibrium_series(const PathProblem& problem, const PathPoint& 
 PathPoint compute_point(const PathProblem& problem, const Prediction& prediction,
                         const Matrix& previous_basis, RunCounts& counts);
 
-/// The point of a node without its equilibrium and its modes: the basis and the reduced pencil.
-PathPoint point_of(const PathNode& node);
-
 /// Series of everything at a computed point, to one order more than the problem's, in powers of the traced
 /// parameter, or of the distance across the plane if the point lies on one. Empty if a series coefficient is
 /// not finite. The tracks have roots, but no mode numbers yet.
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             RunCounts& counts);
-
-/// The same for other modes at a place that was differentiated before: `equations` is what came out, of which
-/// only the tracks change.
-std::optional<PathNode> differentiate_modes(const PathProblem& problem, const PathPoint& point,
-                                            PathNode equations, RunCounts& counts);
 
 /// The same in powers of another parameter, all others constant: the sensitivities of the equilibrium and of
 /// the modes to it. The factorizations of the point are reused, so each further parameter costs only

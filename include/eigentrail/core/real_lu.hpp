@@ -15,14 +15,15 @@ class RealLu {
 
   Eigen::Index size() const { return factors_.rows(); }
 
-  /// Overwrites b with A^-1 b; the real and imaginary parts are two right sides of one call. Cost 2 size^2.
-  void solve_in_place(ComplexVector& b) const { solve('N', b); }
+  /// Overwrites the columns of B with A^-1 B; the real and imaginary parts are right sides of one call. Cost
+  /// 2 size^2 for each.
+  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const { solve('N', B); }
 
-  /// Overwrites b with A^-T b.
-  void solve_adjoint_in_place(ComplexVector& b) const { solve('T', b); }
+  /// Overwrites B with A^-T B.
+  void solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const { solve('T', B); }
 
  private:
-  void solve(char form, ComplexVector& b) const;
+  void solve(char form, Eigen::Ref<ComplexMatrix> B) const;
 
   Matrix factors_;
   std::vector<int> pivots_;

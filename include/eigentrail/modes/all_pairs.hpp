@@ -122,8 +122,4 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
 std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const AllPairs& all, int order,
                                           double accuracy, ModeCounts& counts);
 
-/// B Z for a real matrix B and many complex columns. A diagonal B, such as the E of x' = A x, only scales
-/// rows.
-ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z);
-
 }  // namespace eigentrail

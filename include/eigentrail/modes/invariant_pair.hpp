@@ -32,7 +32,6 @@ struct CorrectorOptions {
   /// Ratio of two corrections above which the equations are factored again, 0 < . < 1.
   double refactor_contraction = 0.1;
   int max_iterations = 30;         ///< >= 1
-  double passing_error = 0.0;      ///< a continued mode with a smaller relative error is not corrected, >= 0
   double series_accuracy = 1e-15;  ///< relative accuracy of every coefficient of the series of a single mode
 };
 
@@ -41,7 +40,6 @@ struct ModeCounts {
   std::uint64_t factorizations = 0;  ///< LU of size n + k, in real numbers if the equations are real
   std::uint64_t iterations = 0;      ///< Newton corrections
   std::uint64_t solves = 0;          ///< back-substitutions for all purposes
-  std::uint64_t passed = 0;          ///< modes that were accurate enough without correction
   /// modal bases that serve all modes at once (all_pairs.hpp, symmetric_pairs.hpp)
   std::uint64_t modal_bases = 0;
   std::uint64_t modal_solves = 0;  ///< solutions for all modes at once with these bases
@@ -60,16 +58,13 @@ class BorderedLu {
              const ComplexMatrix& Y, const ComplexMatrix& D);
 
   Eigen::Index size() const { return n_ + k_; }
-  /// Overwrites b with the solution, or with that of the adjoint equations; vectors, or the columns of a
-  /// matrix, of n + k rows.
-  void solve_in_place(ComplexVector& b) const;
-  void solve_in_place(ComplexMatrix& B) const;
-  void solve_adjoint_in_place(ComplexVector& b) const;
-  void solve_adjoint_in_place(ComplexMatrix& B) const;
+  /// Overwrites the columns of B, of n + k rows, with the solutions, or with those of the adjoint equations.
+  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const;
+  void solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const;
 
  private:
-  template <class Vectors, class Solve>
-  void solve(Vectors& b, const Solve& by_factors) const;
+  template <class Solve>
+  void solve(Eigen::Ref<ComplexMatrix> B, const Solve& by_factors) const;
   ComplexMatrix restricted(const ComplexMatrix& b) const;
 
   Eigen::Index n_, k_;
@@ -95,14 +90,11 @@ class PairFactorization {
   /// x k), to first order.
   void solve(const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ, ComplexMatrix& dLambda) const;
 
-  /// The same on one vector: overwrites (R, N), stored column by column, with (dZ, dLambda).
-  void solve_in_place(ComplexVector& b) const;
-  /// Overwrites b with B^H b, where B is the linear map of solve_in_place.
-  void solve_adjoint_in_place(ComplexVector& b) const;
-
-  /// The same on all columns of B together, which takes less time; one by one where the factors are real.
-  void solve_in_place(ComplexMatrix& B) const;
-  void solve_adjoint_in_place(ComplexMatrix& B) const;
+  /// The same on every column of B: overwrites (R, N), stored column by column, with (dZ, dLambda). All
+  /// together take less time than one by one.
+  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const;
+  /// Applies the adjoint of the linear map of solve_in_place.
+  void solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const;
 
   /// Of the block as a whole. `terms`: n numbers, >= 0.
   PairSensitivity sensitivity(const Vector& terms) const;
@@ -131,11 +123,11 @@ class PairFactorization {
   struct InSchurForm {
     ComplexMatrix X, Y;
   };
-  InSchurForm in_schur_form(const ComplexMatrix& B) const;
+  InSchurForm in_schur_form(const Eigen::Ref<const ComplexMatrix>& B) const;
   /// Overwrites B.
-  void from_schur_form(const InSchurForm& columns, ComplexMatrix& B) const;
-  void solve_block(ComplexMatrix& B) const;
-  void solve_block_adjoint(ComplexMatrix& B) const;
+  void from_schur_form(const InSchurForm& columns, Eigen::Ref<ComplexMatrix> B) const;
+  void solve_block(Eigen::Ref<ComplexMatrix> B) const;
+  void solve_block_adjoint(Eigen::Ref<ComplexMatrix> B) const;
 
   std::optional<Coupling> coupling_;
   std::optional<RealMode> real_;
@@ -184,9 +176,6 @@ void settle_accuracy(const PairSensitivity& sensitivity, double scale, double si
 
 /// The factors of the pair, or new factors at the pair if it has none.
 std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair);
-
-/// |residual| / (magnitude |Z|) of a pair as it is, without correction.
-double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair);
 
 /// Rounding error of the eigenvalue of a block of one mode: the Newton correction whose residual is formed in
 /// extended precision (long double). It gives the small real part of an eigenvalue near the imaginary axis to

@@ -120,11 +120,6 @@ std::span<const EventKindInfo> event_kinds() {
   return kinds;
 }
 
-bool is_event_kind(EventKind kind) {
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [kind](const EventKindInfo& info) { return info.kind == kind; });
-}
-
 const EventKindInfo& event_kind(EventKind kind) {
   for (const EventKindInfo& info : kinds) {
     if (info.kind == kind) return info;

@@ -142,15 +142,6 @@ void reduce_point(const PathProblem& problem, const Matrix& previous_basis, Path
   point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
 }
 
-ReducedPencil of_order_zero(const ReducedPencil& series) {
-  ReducedPencil pencil;
-  if (!series.M.empty()) pencil = {{series.M[0]}, {series.C[0]}, {series.K[0]}};
-  for (const ReducedPencil& part : series.parts) pencil.parts.push_back(of_order_zero(part));
-  pencil.copies = series.copies;
-  pencil.complex_sign = series.complex_sign;
-  return pencil;
-}
-
 bool is_finite(const Track& track) {
   return track.functions.allFinite() && std::all_of(track.series.Z.begin(), track.series.Z.end(),
                                                     [](const auto& Z) { return Z.allFinite(); });
@@ -225,26 +216,10 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
   return point;
 }
 
-PathPoint point_of(const PathNode& node) {
-  PathPoint point;
-  point.p = node.p;
-  point.basis = node.basis;
-  if (!point.basis.T.empty()) point.basis.T.resize(1);
-  point.pencil = of_order_zero(node.pencil);
-  return point;
-}
-
 namespace {
 
-/// A node with the tracks of a point's modes; empty if they are not finite.
-std::optional<PathNode> with_tracks(const PathProblem& problem, const PathPoint& point, PathNode node,
-                                    RunCounts& counts) {
-  node.tracks = tracks_of(problem, point, node, counts);
-  if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
-  return node;
-}
-
-/// Linearization, basis, pencil and tracks of a node as series, from the series of its equilibrium.
+/// Linearization, basis, pencil and tracks of a node as series, from the series of its equilibrium. Empty if
+/// they are not finite.
 std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
                                             RunCounts& counts) {
   const int order = problem.order + 1;
@@ -253,7 +228,9 @@ std::optional<PathNode> differentiate_along(const PathProblem& problem, const Pa
   node.basis = point.basis;
   differentiate_basis(point.equilibrium.kkt.constraints(), node.linearization.A, order, node.basis);
   node.pencil = reduce(node.linearization, node.basis, order);
-  return with_tracks(problem, point, std::move(node), counts);
+  node.tracks = tracks_of(problem, point, node, counts);
+  if (!std::all_of(node.tracks.begin(), node.tracks.end(), is_finite)) return std::nullopt;
+  return node;
 }
 
 }  // namespace
@@ -265,12 +242,6 @@ std::optional<PathNode> differentiate_point(const PathProblem& problem, const Pa
   PathNode node;
   if (equilibrium_series(problem, point, problem.order + 1, node.path, counts)) return std::nullopt;
   return differentiate_along(problem, point, std::move(node), counts);
-}
-
-std::optional<PathNode> differentiate_modes(const PathProblem& problem, const PathPoint& point,
-                                            PathNode equations, RunCounts& counts) {
-  const StageTimer timer(counts.differentiation_seconds);
-  return with_tracks(problem, point, std::move(equations), counts);
 }
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,

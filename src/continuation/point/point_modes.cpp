@@ -46,36 +46,15 @@ class ModeCorrections {
       reciprocal_.emplace_back(pencil, Chart::reciprocal);
     }
     point.pairs.resize(prediction.pairs.size());
-    point.passed.resize(prediction.pairs.size());
-    point.ready = prediction.ready;
   }
 
-  /// Sets pair i: from an earlier computation of the point, or as extrapolated if that is accurate enough, or
-  /// corrected from the better of both predictions.
+  /// Sets pair i.
   void correct(std::size_t i, ModeCounts& counts) {
-    if (i < prediction_.ready.size() && prediction_.ready[i] != nullptr) {
-      point_.pairs[i] = prediction_.ready[i]->pair;
-      return;
-    }
-    InvariantPair start = reduced(prediction_.pairs[i]);
+    const InvariantPair start = reduced(prediction_.pairs[i]);
     const PencilAtPoint& pencil =
         (start.chart == Chart::finite ? finite_ : reciprocal_)[static_cast<std::size_t>(start.part)];
-    const double reference = problem_.reference(start.chart);
-    if (i < prediction_.continued.size() && prediction_.continued[i]) {
-      InvariantPair other = reduced(prediction_.continued[i]->pair);
-      normalize_pair(other.Z, other.Lambda, other.W, reference);
-      other.backward_error = backward_error(pencil, other);
-      if (other.condition * other.backward_error <= problem_.corrector.passing_error &&
-          prediction_.may_pass(*prediction_.continued[i], i)) {
-        other.status = PairStatus::converged;
-        point_.pairs[i] = std::move(other);
-        point_.passed[i] = prediction_.continued[i]->series;
-        ++counts.passed;
-        return;
-      }
-      if (other.backward_error < backward_error(pencil, start)) start = std::move(other);
-    }
-    point_.pairs[i] = correct_pair(pencil, start, reference, problem_.corrector, counts);
+    point_.pairs[i] =
+        correct_pair(pencil, start, problem_.reference(start.chart), problem_.corrector, counts);
   }
 
   std::vector<InvariantPair> starts() const {
@@ -229,21 +208,6 @@ Track differentiate_track(const PathProblem& problem, const PathNode& node, cons
   return make_track(problem, std::move(pair), std::move(series));
 }
 
-/// The track of pair i of a point: from an earlier computation, as extrapolated, or differentiated now.
-Track track_at(const PathProblem& problem, const PathNode& node, const PhysicalSeries& physical,
-               const PathPoint& point, std::size_t i, ModeCounts& counts) {
-  if (i < point.ready.size() && point.ready[i] != nullptr) {
-    Track track = make_track(problem, point.ready[i]->pair, point.ready[i]->series);
-    track.passed = point.ready[i]->passed;
-    return track;
-  }
-  if (i >= point.passed.size() || !point.passed[i])
-    return differentiate_track(problem, node, physical, point.pairs[i], counts);
-  Track track = make_track(problem, point.pairs[i], *point.passed[i]);
-  track.passed = true;
-  return track;
-}
-
 }  // namespace
 
 Track differentiate_track(const PathProblem& problem, const PathNode& node, InvariantPair pair,
@@ -259,7 +223,7 @@ std::vector<Track> tracks_of(const PathProblem& problem, const PathPoint& point,
   if (!point.symmetric && !point.all) {
     for_every_mode(problem, tracks.size(), node.pencil.size(), counts.modes,
                    [&](std::size_t i, ModeCounts& own) {
-                     tracks[i] = track_at(problem, node, physical, point, i, own);
+                     tracks[i] = differentiate_track(problem, node, physical, point.pairs[i], own);
                    });
     return tracks;
   }

@@ -17,14 +17,8 @@ class WholeInverse {
       : W_(W), scale_(scale), J_(jacobian_matrix(at, W, scale)), lu_(J_) {}
 
   /// B v and B^H v, of a vector or of the columns of a matrix.
-  template <class Vectors>
-  void apply(Vectors& v) const {
-    lu_.solve_in_place(v);
-  }
-  template <class Vectors>
-  void apply_adjoint(Vectors& v) const {
-    lu_.solve_adjoint_in_place(v);
-  }
+  void apply(Eigen::Ref<ComplexMatrix> v) const { lu_.solve_in_place(v); }
+  void apply_adjoint(Eigen::Ref<ComplexMatrix> v) const { lu_.solve_adjoint_in_place(v); }
 
   struct Change {
     ComplexMatrix matrix;
@@ -53,13 +47,11 @@ class TriangularInverse {
   TriangularInverse(const PairAtPlace& at, const ComplexMatrix& W, const ComplexMatrix& W1, double scale)
       : at_(at), W1_(W1), scale_(scale), factors_(at.pencil, at.Z, at.Lambda, W) {}
 
-  template <class Vectors>
-  void apply(Vectors& v) const {
+  void apply(Eigen::Ref<ComplexMatrix> v) const {
     factors_.solve_in_place(v);
     v.bottomRows(at_.Lambda.size()) *= 1.0 / scale_;  // the division of complex numbers might underflow
   }
-  template <class Vectors>
-  void apply_adjoint(Vectors& v) const {
+  void apply_adjoint(Eigen::Ref<ComplexMatrix> v) const {
     v.bottomRows(at_.Lambda.size()) *= 1.0 / scale_;
     factors_.solve_adjoint_in_place(v);
   }

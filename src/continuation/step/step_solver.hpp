@@ -1,5 +1,4 @@
-// Computation of the point at the end of a step. The prediction uses the last two points, and the tracks that
-// an earlier attempt at the same step has computed already.
+// Computation of the point at the end of a step.
 #pragma once
 
 #include "continuation/point/point_solver.hpp"
@@ -7,21 +6,9 @@
 
 namespace eigentrail {
 
-/// What an attempt computed that is repeated with other blocks.
-struct TriedPoint {
-  double h = 0.0;  ///< its signed distance from the begin of the step
-  std::vector<Track> tracks = {};
-  /// The series of its equations, without tracks: they do not depend on the blocks. Empty once they were
-  /// used.
-  std::optional<PathNode> equations = {};
-};
-
-/// The begin of the next step, with data of earlier ones. All members are saved with the state of a trace.
+/// The begin of the next step. All members are saved with the state of a trace.
 struct StepOrigin {
-  PathNode node;                     ///< the last accepted point
-  std::vector<Track> previous = {};  ///< at the point before it
-  double last_step = 0.0;            ///< signed length between the two; 0: none in the present coordinate
-  std::optional<TriedPoint> tried = {};
+  PathNode node;               ///< the last accepted point
   std::uint64_t lineages = 0;  ///< largest number given to a track so far
 };
 
@@ -34,9 +21,8 @@ struct AttemptedStep {
 /// Computes steps from an origin.
 class StepSolver {
  public:
-  /// Keeps references to solver and origin. `parting_reach` as in trace_state.hpp.
-  StepSolver(const PointSolver& solver, StepOrigin& origin, double parting_reach)
-      : solver_(solver), origin_(origin), parting_reach_(parting_reach) {}
+  /// Keeps references to both.
+  StepSolver(const PointSolver& solver, StepOrigin& origin) : solver_(solver), origin_(origin) {}
 
   /// The step of signed length h from the origin, with the eigenvalues of its blocks in the order of the
   /// modes.
@@ -45,21 +31,8 @@ class StepSolver {
   const PointSolver& points() const { return solver_; }
 
  private:
-  Prediction predict(double h);
-  /// The point at a distance h, and the series there.
-  struct Computed {
-    PathPoint point;
-    std::optional<PathNode> node = {};
-  };
-  Computed compute(double h);
-  /// Adds the extrapolation of the last step's dense output as a second prediction of single modes.
-  void continue_modes(double h, Prediction& prediction) const;
-  /// Whether a mode may be accepted without correction.
-  bool is_far_from_events(const ContinuedMode& mode, std::size_t track, double h) const;
-
   const PointSolver& solver_;
   StepOrigin& origin_;
-  double parting_reach_;
 };
 
 }  // namespace eigentrail

@@ -33,9 +33,7 @@ void join_conjugate_parts(PathProblem& problem, TraceState& state) {
   node.basis.parts = problem.parts;
   node.pencil = reduce(node.linearization, node.basis, problem.order + 1);
   for (Track& track : node.tracks) renumber(track);
-  for (Track& track : state.origin.previous) renumber(track);
   for (EndedTrack& one : state.ended) renumber(one.track);
-  state.origin.tried.reset();
   state.settings.joins_pairs = true;
 }
 

@@ -24,7 +24,7 @@ static void fields(Self& self, Visit& visit) {
 }
 
 Members<2> archived(const Track::Departure*);
-Members<14> archived(const Track*);
+Members<13> archived(const Track*);
 Members<4> archived(const Linearization*);
 
 template <SameAs<TangentBasis> Self, class Visit>
@@ -51,8 +51,7 @@ static void fields(Self& self, Visit& visit) {
   visit(plane, direction, largest_position, scaled_at, largest_unknowns, rounding, bridge, branch_point);
 }
 
-Members<3> archived(const TriedPoint*);
-Members<5> archived(const StepOrigin*);
+Members<2> archived(const StepOrigin*);
 Members<3> archived(const TraceSettings*);
 
 /// The other path is not saved: it is used, or no longer needed, before the next state is saved.
@@ -149,8 +148,6 @@ TraceState restore_state(std::string_view bytes, PathProblem& problem, const Tra
   };
   if (sizes != sizes_of(problem, options)) refuse("other sizes");
   restore_parts(problem, state.origin.node);
-  if (state.origin.tried && state.origin.tried->equations)
-    restore_parts(problem, *state.origin.tried->equations);
   state.frame.range = {problem.traced, options.from, options.to};
   if (!same_matrices(problem, state.origin.node))
     refuse("other matrices at " + place_text(options, state.origin.node.p) +

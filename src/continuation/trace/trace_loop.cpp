@@ -90,7 +90,6 @@ std::optional<double> way_to_infinity(const PathProblem& problem, const std::str
                                    ": it runs to infinity");
   }
   if (ended.behind > 0.0) {
-    state.origin.tried.reset();
     state.control.restart(ended.behind);
     if (node.tracks.empty() && !state.settings.follows_all) return std::nullopt;
   }
@@ -316,7 +315,7 @@ bool TraceLoop::advance() {
     verdict = judge(*attempted.step, if_uncertified(h));
   if (!verdict.accepted()) {
     const bool may_be_taken = is_taken(verdict, h);
-    if (find_remedy(verdict, h, may_be_taken ? attempted.step : std::move(attempted.step))) return true;
+    if (find_remedy(verdict, h, attempted.step ? &*attempted.step : nullptr)) return true;
     if (!may_be_taken) return shorten(verdict, length);
   }
   StepSolver solver = steps();
@@ -334,7 +333,7 @@ bool TraceLoop::advance() {
   landed->step.whole = h;  // its error was accepted; if it is uncertified, too
   const Verdict anew = judge(landed->step, if_uncertified(cut));
   if (!is_taken(anew, cut)) {
-    if (find_remedy(anew, cut, std::move(landed->step))) return true;
+    if (find_remedy(anew, cut, &landed->step)) return true;
     return shorten(anew, std::abs(cut));
   }
   state_.control.accept(length, verdict.error);
@@ -350,7 +349,7 @@ Verdict TraceLoop::judge(const Step& step, Uncertified uncertified) {
   return eigentrail::judge(problem_, state_.frame, options_, step, uncertified, tests_, state_.result.counts);
 }
 
-bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step> step) {
+bool TraceLoop::find_remedy(const Verdict& verdict, double h, const Step* step) {
   count(verdict, state_.result.rejections);
   StepMemory& memory = state_.steps;
   const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
@@ -359,17 +358,12 @@ bool TraceLoop::find_remedy(const Verdict& verdict, double h, std::optional<Step
       uncertified && memory.retries.is_in_vain(verdict.error) ? Shorter::in_vain : Shorter::may_help;
   const int limit = std::max(most_joins, static_cast<int>(state_.origin.node.tracks.size()));
   const Remedy remedy =
-      eigentrail::find_remedy(problem_, state_.frame, joining_rules(), verdict, h, step ? &*step : nullptr,
-                              memory.joins < limit, shorter, state_.origin.node, state_.result.counts);
+      eigentrail::find_remedy(problem_, state_.frame, joining_rules(), verdict, h, step, memory.joins < limit,
+                              shorter, state_.origin.node, state_.result.counts);
   if (remedy.tried_to_join) ++memory.joins;
   if (!remedy.helps()) return false;
   if (remedy.turned_step) memory.turned_step = *remedy.turned_step;
   add(remedy.changes, state_.result.regroupings);
-  state_.origin.tried.reset();
-  if (step && !state_.frame.plane) {
-    std::vector<Track> tracks = std::exchange(step->right.tracks, {});
-    state_.origin.tried = TriedPoint{h, std::move(tracks), std::move(step->right)};
-  }
   return true;
 }
 
@@ -389,7 +383,6 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
   if (!who.empty())
     state_.result.notes.push_back(who + equal_modes_text(state_.copies, modes) + " ends at " +
                                   place_text(options_, node.p) + ": " + verdict.reason);
-  state_.origin.tried.reset();
   state_.control.restart(memory.longest_step);
   return true;
 }
@@ -407,14 +400,12 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
                            state_.numbers, result.counts) >
       0) {
     number_modes(state_, state_.origin.node);
-    state_.origin.tried.reset();
     return true;  // the step is taken again, with them
   }
   // Where they cannot be followed back, the place at which they begin is found to the tolerance.
   if (!needed.tracks.empty() && std::abs(step.h) > options_.tolerance * state_.frame.coordinate_range()) {
     ++result.rejections.mode_lost;
     state_.control.reject(std::abs(step.h), INFINITY);
-    state_.origin.tried.reset();
     return true;
   }
   settle_events(landed);
@@ -535,11 +526,8 @@ void TraceLoop::move_on(Step step) {
   memory.ended = 0;
   state_.branches.tries = 0;
   const bool grows = grows_towards_pole(frame, origin.node, step.right);
-  origin.previous = std::move(origin.node.tracks);
   origin.node = std::move(step.right);
   memory.towards_pole = grows ? memory.towards_pole + 1 : 0;
-  origin.last_step = frame.plane ? 0.0 : step.h;
-  origin.tried.reset();
   note_size(problem_.model, origin.node, frame);
   for (const Track& track : origin.node.tracks) {
     // Where eigenvalues of the next step can be told apart is on it.
@@ -570,7 +558,6 @@ bool TraceLoop::leave_path() {
   number_modes(state_, start->node);
   state_.frame = std::move(start->frame);
   state_.origin.node = std::move(start->node);
-  state_.origin.last_step = 0.0;
   state_.steps.turned_step = start->next_step;
   ++state_.result.regroupings.planes;
   return true;

@@ -34,9 +34,9 @@ class TraceLoop final : private Checkpoint {
   bool advance();
 
   Verdict judge(const Step& step, Uncertified uncertified);
-  /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points if
-  /// they were solved. Returns whether something was changed, so that the step shall be tried again.
-  bool find_remedy(const Verdict& verdict, double h, std::optional<Step> step);
+  /// Applies a remedy other than a shorter step to a rejected step of length h. `step` holds its points; null
+  /// if they were not solved. Returns whether something was changed, so that the step shall be tried again.
+  bool find_remedy(const Verdict& verdict, double h, const Step* step);
   bool shorten(const Verdict& verdict, double length);
   bool commit(LandedStep landed, const std::vector<bool>& certified);
   void settle_events(LandedStep& landed);
@@ -45,7 +45,7 @@ class TraceLoop final : private Checkpoint {
   void move_on(Step step);
   bool leave_path();
 
-  StepSolver steps() { return {points_, state_.origin, reach_}; }
+  StepSolver steps() { return {points_, state_.origin}; }
   JoiningRules joining_rules() const {
     return {options_.tolerance, reach_, state_.steps.longest_step, state_.settings.follows_all};
   }

@@ -14,10 +14,6 @@ namespace {
 constexpr double series_share = 1e-5;
 /// Least such error: what rounding allows.
 constexpr double series_rounding = 1e-15;
-/// Largest error of a mode that is accepted without correction, as a share of the tolerance. The rest of the
-/// tolerance is left to the dense output. A larger value adds to the error of the result, a smaller one needs
-/// more corrections.
-constexpr double passing_share = 0.01;
 /// Factor in parting_reach. At a distance of 0.5 tolerance^(-1/(2q+2)) steps, a meeting allows single modes a
 /// step of exactly the present length. 0.7 keeps a block together until single modes would allow steps 1.4
 /// times as long. A larger value keeps blocks, which cost more, for longer; a smaller one separates blocks
@@ -34,7 +30,6 @@ PathProblem trace_problem(const Model& model, const TraceOptions& options, Basis
   if (basis == BasisChoice::aligned) problem.parts = parts_of_family(problem, options);
   problem.threads = options.threads;
   problem.thresholds = options.thresholds;
-  problem.corrector.passing_error = passing_share * options.tolerance;
   problem.corrector.series_accuracy = std::max(series_share * options.tolerance, series_rounding);
   return problem;
 }

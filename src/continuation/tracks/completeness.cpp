@@ -165,8 +165,7 @@ bool have_common_eigenpair(const Track& a, const Track& b, double reference,
 bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& track = node.tracks[i];
-    // A mode that was accepted without correction is known to a share of the tolerance, which may be more.
-    if (!track.passed && track.pair.backward_error > largest_backward_error) return true;
+    if (track.pair.backward_error > largest_backward_error) return true;
     for (std::size_t j = 0; j < i; ++j) {
       if (have_common_eigenpair(track, node.tracks[j], problem.reference(track.pair.chart),
                                 problem.thresholds.identity))
