@@ -315,10 +315,10 @@ Structure MultibladeRotor::structure(int traced_parameter) const {
   const bool same_speed = std::none_of(moving.begin(), moving.end(), [&](int parameter) {
     return parameters.depends_on(data_.speed, parameter);
   });
-  Structure result = structure_of({&data_.blade.data(), &data_.support.data()}, moving);
+  Structure result = structure_of({&data_.blade, &data_.support}, moving);
   result.gyroscopic = true;
   // The damping of blades acts in the turning frame: Omega C (DG) is unsymmetric.
-  result.circulatory = result.circulatory || structure_of({&data_.blade.data()}, moving).damped;
+  result.circulatory = result.circulatory || structure_of({&data_.blade}, moving).damped;
   result.constant_damping = result.constant_damping && result.constant_mass && same_speed;
   result.constant_stiffness = result.constant_stiffness && result.constant_damping;
   return result;

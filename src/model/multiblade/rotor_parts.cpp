@@ -34,8 +34,9 @@ class Touched {
   }
   void quantity(const QuantityField&, const Quantity&) {}
   void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
-  template <std::size_t N>
-  void matrix(const QuantityField&, const std::array<Quantity, N>&) {}
+  void matrix(const QuantityField&, const std::array<Quantity, 4>&) {}
+  template <class... Numbers>
+  void numbers(const Numbers&...) {}
 
   void constraint(const Constraint& constraint) {
     for (const ConstraintRow& row : constraint.rows) {
