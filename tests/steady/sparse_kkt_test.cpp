@@ -10,7 +10,6 @@
 #include <random>
 
 #include "eigentrail/steady/kkt_factorization.hpp"
-#include "steady/sparse_bordered_kkt.hpp"
 
 namespace eigentrail::test::sparse_kkt_test {
 namespace {
