@@ -7,6 +7,7 @@
 #include <span>
 
 #include "accuracy/extended_pencil.hpp"
+#include "core/connected_groups.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
@@ -96,22 +97,11 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
 }
 
 /// Groups of close eigenvalues, as indices into `s`, which contains both members of complex pairs.
-std::vector<std::vector<std::size_t>> clusters(const std::vector<Complex>& s, double reference) {
-  std::vector<std::size_t> label(s.size());
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    label[i] = i;
-    for (std::size_t j = 0; j < i; ++j) {
-      const double scale = std::max({std::abs(s[i]), std::abs(s[j]), reference});
-      if (std::abs(s[i] - s[j]) > close * scale) continue;
-      const std::size_t joined = label[j];
-      const std::size_t left = label[i];
-      for (std::size_t l = 0; l <= i; ++l) label[l] = label[l] == left ? joined : label[l];
-    }
-  }
-  std::vector<std::vector<std::size_t>> groups(s.size());
-  for (std::size_t i = 0; i < s.size(); ++i) groups[label[i]].push_back(i);
-  std::erase_if(groups, [](const auto& group) { return group.empty(); });
-  return groups;
+Groups clusters(const std::vector<Complex>& s, double reference) {
+  return connected_groups(static_cast<Eigen::Index>(s.size()), [&](Eigen::Index i, Eigen::Index j) {
+    const Complex a = s[static_cast<std::size_t>(i)], b = s[static_cast<std::size_t>(j)];
+    return std::abs(a - b) <= close * std::max({std::abs(a), std::abs(b), reference});
+  });
 }
 
 /// The finite eigenvalues, with both members of complex pairs, and the index of the mode of each.
@@ -179,7 +169,8 @@ void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpe
   const PencilAtPoint at_point(pencil);
   const Members members(spectrum);
   ModeCounts counts;
-  for (const auto& group : clusters(members.s, reference)) {
+  for (const auto& indices : clusters(members.s, reference)) {
+    const std::vector<std::size_t> group(indices.begin(), indices.end());
     const bool real = members.closed(group);
     if (!real && members.mean(group).imag() < 0.0) continue;
     const InvariantPair pair = correct_pair(

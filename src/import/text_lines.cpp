@@ -32,18 +32,12 @@ std::string read_text_file(const std::string& path) {
 
 std::optional<std::string_view> TextLines::next() {
   if (rest_.empty()) return std::nullopt;
-  before_ = rest_;
   const std::size_t end = rest_.find('\n');
   std::string_view line = rest_.substr(0, end);
   rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   ++line_;
   return line;
-}
-
-void TextLines::back() {
-  rest_ = before_;
-  --line_;
 }
 
 void TextLines::fail(const std::string& message) const {

@@ -18,13 +18,11 @@ class TextLines {
 
   /// The next line without its end, or nothing.
   std::optional<std::string_view> next();
-  /// Gives the last line back.
-  void back();
   int line() const { return line_; }
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
-  std::string_view rest_, before_;
+  std::string_view rest_;
   std::string path_;
   int line_ = 0;
 };

@@ -42,8 +42,7 @@ bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameter
 template <class Storage>
 AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<Storage> pencil)
     : MatrixModel([&] {
-        if (description.shafts.empty() || description.effects.empty())
-          description.effects = effects_of(pencil);
+        if (description.effects.empty()) description.effects = effects_of(pencil);
         return std::move(description);
       }()),
       pencil_(std::move(pencil)) {
@@ -73,6 +72,7 @@ Structure AffineFamily<Storage>::structure(int traced_parameter) const {
   result.constant_mass = are_constant(pencil_.M, parameters, traced_parameter);
   result.constant_damping = are_constant(pencil_.C, parameters, traced_parameter);
   result.constant_stiffness = are_constant(pencil_.K, parameters, traced_parameter);
+  result.constant_constraints = are_constant(pencil_.A, parameters, traced_parameter);
   return result;
 }
 
@@ -80,22 +80,22 @@ template <class Storage>
 template <class Real, int Q>
 EvaluationFault AffineFamily<Storage>::evaluate_all(const BasicPath<Real>& path, int order,
                                                     BasicLinearization<Real>& result) const {
-  using Dense = typename BasicSystemMatrix<Real>::Dense;
-  using Sparse = typename BasicSystemMatrix<Real>::Sparse;
-  using Sum = SeriesSum<std::conditional_t<std::is_same_v<Storage, SparseMatrix>, Sparse, Dense>, Q>;
+  using Dense = SeriesSum<typename BasicSystemMatrix<Real>::Dense, Q>;
+  using Sparse = SeriesSum<typename BasicSystemMatrix<Real>::Sparse, Q>;
+  using Sum = std::conditional_t<std::is_same_v<Storage, SparseMatrix>, Sparse, Dense>;
   const auto si = si_series<Real, Q>(description().parameters, path);
   EvaluationFault fault;
-  const auto evaluate = [&](const std::vector<AffineTerm<Storage>>& terms, const char* name) {
-    Sum sum(n_coordinates(), n_coordinates(), order);
+  const auto evaluate = [&](auto sum, const std::vector<AffineTerm<Storage>>& terms, const char* name) {
     for (const AffineTerm<Storage>& term : terms)
       sum.add(factor_of(term, std::span<const Series<Real, Q>>(si)), term.matrix);
     if (!sum.is_finite() && !fault) fault.source = name;
     return sum.take();
   };
-  result.M = evaluate(pencil_.M, "matrix M");
-  result.C = evaluate(pencil_.C, "matrix C");
-  result.K = evaluate(pencil_.K, "matrix K");
-  result.A = {Dense(0, n_coordinates())};
+  const Eigen::Index n = n_coordinates();
+  result.M = evaluate(Sum(n, n, order), pencil_.M, "matrix M");
+  result.C = evaluate(Sum(n, n, order), pencil_.C, "matrix C");
+  result.K = evaluate(Sum(n, n, order), pencil_.K, "matrix K");
+  result.A = evaluate(Dense(n_constraints(), n, order), pencil_.A, "matrix A");
   return fault;
 }
 
@@ -112,6 +112,7 @@ template <class Storage>
 CoefficientMatrices AffineFamily<Storage>::coefficient_matrices(const Vector& parameters, int traced) const {
   CoefficientMatrices result;
   if constexpr (std::is_same_v<Storage, Matrix>) {
+    if (n_constraints() > 0) return result;
     const auto si = si_series<double, 0>(description().parameters, {parameters, {}, {}});
     const auto take = [&](const std::vector<AffineTerm<Matrix>>& terms, std::vector<Matrix>& matrices) {
       Matrix constant = Matrix::Zero(n_coordinates(), n_coordinates());
@@ -134,7 +135,7 @@ CoefficientMatrices AffineFamily<Storage>::coefficient_matrices(const Vector& pa
 template <class Storage>
 std::vector<Expression> AffineFamily<Storage>::expressions() const {
   std::vector<Expression> all;
-  for (const auto* terms : {&pencil_.M, &pencil_.C, &pencil_.K}) {
+  for (const auto* terms : {&pencil_.M, &pencil_.C, &pencil_.K, &pencil_.A}) {
     for (const AffineTerm<Storage>& term : *terms) {
       // A tabulated factor is as smooth as the steps between the rows of its table.
       if (term.table) continue;

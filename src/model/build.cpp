@@ -5,7 +5,7 @@
 
 #include "core/blas.hpp"
 #include "eigentrail/core/text.hpp"
-#include "model/matrix_family.hpp"
+#include "model/read_matrix_family.hpp"
 #include "model/read_multibody.hpp"
 #include "model/read_trim.hpp"
 #include "model/rotor/read_rotor.hpp"

@@ -40,12 +40,4 @@ struct Constraint {
   int first_row = 0;
 };
 
-/// Whether A depends on x.
-inline bool is_curved(const Constraint& constraint) {
-  for (const ConstraintRow& row : constraint.rows) {
-    if (row.b && row.a.moves() && row.b->moves()) return true;
-  }
-  return false;
-}
-
 }  // namespace eigentrail

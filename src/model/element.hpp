@@ -2,8 +2,8 @@
 //
 // An element is a struct with
 //   name, description, contribution        from these `explain` and the structure flags are derived
-//   depends                                which of position, velocity, acceleration the force depends on
-//   fields(self, visit)                    its data, listed once: scene keys, units, roles, help
+//   fields(self, visit)                    its data, listed once: scene keys, units, help; for those whose
+//                                          tables have their own readers places and numbers alone
 //   force(at)                              its force, written once for every scalar type; it is called with
 //                                          Recorded scalars, once for every element (record/recorded.hpp)
 //   states                                 optional: unknowns of its own, of first order (see OwnState)
@@ -56,19 +56,6 @@ struct Axis {
   int index = 0;
 };
 
-/// Where a quantity enters the equations; determines what is constant along a path.
-struct Enters {
-  bool mass = false;
-  bool damping = false;
-  bool force = false;       ///< steady force, and therefore the stiffness
-  bool constraint = false;  ///< c, and therefore A
-};
-inline constexpr Enters enters_mass{.mass = true};
-inline constexpr Enters enters_damping{.damping = true};
-inline constexpr Enters enters_force{.force = true};
-inline constexpr Enters enters_damping_and_force{.damping = true, .force = true};
-inline constexpr Enters enters_constraint{.constraint = true};
-
 /// An unknown u that belongs to an element, of first order: elongation of a dashpot, lag of the air. An
 /// element lists them in `static constexpr std::array states`. Its force() reads at.state(i) and
 /// at.state_rate(i), and adds with at.add_to_state(i, r) the right side of the equation 0 = r(x, u, u') of
@@ -99,20 +86,9 @@ enum class Range { any, non_negative, positive };
 struct QuantityField {
   std::string_view key;
   std::string_view unit;
-  Enters enters;
   std::string_view help;
   Range range = Range::any;
   std::optional<double> otherwise = std::nullopt;  ///< default value; absent: the key is required
-};
-
-/// Kinematic quantities on which a force depends. It is differentiated only with respect to these, and to
-/// the states of the element and their rates.
-struct Dependence {
-  bool position = false;
-  bool velocity = false;
-  bool acceleration = false;
-  bool turning = false;       ///< C depends on positions and thus changes with the equilibrium
-  bool turning_mass = false;  ///< likewise M
 };
 
 /// A moving vector while the force of its element is called.

@@ -44,6 +44,12 @@ std::optional<int> power_in(const std::string& name) {
   return parsed.ec == std::errc() && parsed.ptr == end ? std::optional(power) : std::nullopt;
 }
 
+Expression power_of_parameter(int parameter, int power) {
+  Expression result = 1.0;
+  for (int i = 0; i < power; ++i) result = result * Expression::of_parameter(parameter);
+  return result;
+}
+
 ModelDescription describe_states(Eigen::Index n, const std::vector<std::string>& names,
                                  const std::vector<std::string>& units) {
   ModelDescription description;

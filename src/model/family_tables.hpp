@@ -28,6 +28,8 @@ std::string fault_of_names(const std::vector<std::string>& names, Eigen::Index n
 
 /// The number that a text is as a whole: a power of the parameter.
 std::optional<int> power_in(const std::string& name);
+/// p^power for the parameter with this index.
+Expression power_of_parameter(int parameter, int power);
 
 /// A description with n coordinates: x1, x2, ... and the unit 1 where names and units are empty.
 ModelDescription describe_states(Eigen::Index n, const std::vector<std::string>& names,

@@ -11,72 +11,6 @@ namespace {
 constexpr int most_settlings = 10;
 constexpr double settled = 1e-12;
 
-/// Adds the roles of all quantities that depend on one of some parameters to `enters`.
-class TracedRoles {
- public:
-  TracedRoles(const Parameters& parameters, std::vector<int> traced, Enters& enters)
-      : parameters_(parameters), traced_(std::move(traced)), enters_(enters) {}
-
-  void place(std::string_view, const Place& place, std::string_view = {}) {
-    for (const Term& term : place.terms) {
-      if (term.weight.slot >= 0) add(term.weight, place_role);
-    }
-    if (place.moves()) return;
-    for (const Quantity& q : place.fixed) add(q, place_role);
-  }
-  void point(std::string_view key, const Place& place, std::string_view help) {
-    this->place(key, place, help);
-  }
-  void direction(std::string_view key, const Place& place, std::string_view help) {
-    this->place(key, place, help);
-  }
-  void body(std::string_view, const std::array<Place, 3>&, std::string_view) {}
-  void joint(std::string_view key, const HingeAngle& angle, std::string_view) {
-    for (const Place* direction : {&angle.axis, &angle.from, &angle.to}) place(key, *direction);
-  }
-  void quantity(const QuantityField& field, const Quantity& q) { add(q, field.enters); }
-  void vector(const QuantityField& field, const std::array<Quantity, 3>& v) {
-    for (const Quantity& q : v) add(q, field.enters);
-  }
-  void strength(const Quantity& q, const Enters& role) {
-    if (q.slot >= 0) add(q, role);
-  }
-  template <std::size_t N>
-  void matrix(const QuantityField& field, const std::array<Quantity, N>& entries) {
-    for (const Quantity& q : entries) add(q, field.enters);
-  }
-  void constraint(const Constraint& constraint) {
-    place_role = enters_constraint;
-    for (const ConstraintRow& row : constraint.rows) {
-      add(row.offset, enters_constraint);
-      sides(row.a);
-      if (row.b) sides(*row.b);
-    }
-  }
-
-  /// Role of the weights and coordinates of places, for the current element or for constraints.
-  Enters place_role;
-
- private:
-  void sides(const Difference& difference) {
-    place("", difference.first);
-    if (difference.second) place("", *difference.second);
-  }
-
-  void add(const Quantity& q, const Enters& role) {
-    const auto moves_q = [&](int parameter) { return parameters_.depends_on(q.expression, parameter); };
-    if (std::none_of(traced_.begin(), traced_.end(), moves_q)) return;
-    enters_.mass = enters_.mass || role.mass;
-    enters_.damping = enters_.damping || role.damping;
-    enters_.force = enters_.force || role.force;
-    enters_.constraint = enters_.constraint || role.constraint;
-  }
-
-  const Parameters& parameters_;
-  std::vector<int> traced_;
-  Enters& enters_;
-};
-
 }  // namespace
 
 ModelDescription with_costs(ModelDescription description,
@@ -124,49 +58,46 @@ std::vector<int> moving_parameters(const ModelDescription& description, int trac
   return moving;
 }
 
-Structure structure_of(std::initializer_list<const MultibodyData*> parts, const std::vector<int>& moving) {
+Structure structure_of(std::initializer_list<const Assembly*> parts, const std::vector<int>& moving) {
   Structure result;
-  Enters changes;
-  bool curved_constraints = false;
-  bool turning_damping = false;
-  bool turning_mass = false;
-  TracedRoles roles((*parts.begin())->parameters, moving, changes);
-  for (const MultibodyData* data : parts) {
-    data->elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
-      constexpr Dependence depends = Element::depends;
-      roles.place_role = {.mass = depends.acceleration, .damping = depends.velocity, .force = true};
-      constexpr bool damping = depends.velocity || number_of_states<Element>() > 0;
-      constexpr bool only_inertia = Element::contribution.inertia && !depends.position;
-      for (const Placed<Element>& placed : list) {
-        Element::fields(placed.element, roles);
-        roles.strength(placed.strength,
-                       {.mass = depends.acceleration, .damping = damping, .force = !only_inertia});
-      }
+  Inputs residual;
+  std::array<Inputs, 4> matrices;
+  for (const Assembly* part : parts) {
+    part->data().elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
       if (list.empty()) return;
       result.damped = result.damped || Element::contribution.dissipative;
       result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
       result.circulatory = result.circulatory || Element::contribution.circulatory;
-      turning_damping = turning_damping || depends.turning;
-      turning_mass = turning_mass || depends.turning_mass;
     });
-    for (const Constraint& constraint : data->constraints) {
-      roles.constraint(constraint);
-      curved_constraints = curved_constraints || is_curved(constraint);
-    }
+    residual.add(part->equations().inputs_of_residual);
+    for (std::size_t target = 0; target < matrices.size(); ++target)
+      matrices[target].add(part->equations().inputs[target]);
   }
-  // K and curved constraints (A) change with the equilibrium, and so do some damping matrices and the mass of
-  // the air.
+  const MultibodyData& data = (*parts.begin())->data();
+  const auto changes = [&](const Inputs& inputs) {
+    return std::any_of(inputs.numbers.begin(), inputs.numbers.end(), [&](int slot) {
+      const auto at = static_cast<std::size_t>(slot);
+      return at < data.quantities.size() && std::any_of(moving.begin(), moving.end(), [&](int parameter) {
+               return data.parameters.depends_on(data.quantities[at], parameter);
+             });
+    });
+  };
   const bool trimmed = moving.size() > 1;
-  result.fixed_equilibrium = !changes.force && !changes.constraint && !trimmed;
-  result.constant_mass = !changes.mass && (result.fixed_equilibrium || !turning_mass);
-  result.constant_damping = !changes.damping && (result.fixed_equilibrium || !turning_damping);
+  result.fixed_equilibrium = !changes(residual) && !trimmed;
+  const auto is_constant = [&](Target target) {
+    const Inputs& inputs = matrices[static_cast<std::size_t>(target)];
+    return !changes(inputs) && (result.fixed_equilibrium || !inputs.coordinates);
+  };
+  result.constant_mass = is_constant(Target::mass);
+  result.constant_damping = is_constant(Target::damping);
+  // Forces of constraints are part of it.
   result.constant_stiffness = result.fixed_equilibrium;
-  result.constant_constraints = !changes.constraint && (result.fixed_equilibrium || !curved_constraints);
+  result.constant_constraints = is_constant(Target::constraints);
   return result;
 }
 
 Structure Multibody::structure(int traced_parameter) const {
-  return structure_of({&assembly_.data()}, moving_parameters(description(), traced_parameter));
+  return structure_of({&assembly_}, moving_parameters(description(), traced_parameter));
 }
 
 EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,

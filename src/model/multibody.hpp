@@ -9,7 +9,7 @@ namespace eigentrail {
 
 /// Structure of the equations of these elements and constraints together, as Model::structure, while the
 /// `moving` parameters change: the traced one and the unknowns of trims.
-Structure structure_of(std::initializer_list<const MultibodyData*> parts, const std::vector<int>& moving);
+Structure structure_of(std::initializer_list<const Assembly*> parts, const std::vector<int>& moving);
 
 /// The traced parameter, and the trimmed ones, which follow it.
 std::vector<int> moving_parameters(const ModelDescription& description, int traced_parameter);

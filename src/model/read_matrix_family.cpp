@@ -1,11 +1,15 @@
+#include "model/read_matrix_family.hpp"
+
 #include <algorithm>
 
 #include "core/hdf5_file.hpp"
+#include "eigentrail/model/affine_family.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "model/affine_factor.hpp"
 #include "model/beside_scene.hpp"
 #include "model/draft.hpp"
+#include "model/expression_terms.hpp"
 #include "model/family_tables.hpp"
-#include "model/matrix_family.hpp"
 #include "model/read_sparse_family.hpp"
 
 namespace eigentrail {
@@ -14,15 +18,33 @@ namespace {
 constexpr Eigen::Index max_size = limits::matrix_rows;
 constexpr int max_power = limits::matrix_power;
 
+/// A matrix polynomial in the variable of the family: for every power a term with the constant entries, then
+/// those of the entries that are expressions of parameters.
+struct Polynomial {
+  DenseTerms terms = {};
+  int powers = 0;  ///< the highest, and one more
+
+  bool empty() const { return terms.empty(); }
+  /// Whether the matrix is given, but has no entries: it is absent.
+  bool is_zero() const {
+    return std::all_of(terms.begin(), terms.end(),
+                       [](const AffineTerm<Matrix>& term) { return term.matrix.isZero(0.0); });
+  }
+};
+
 struct FamilyReader {
   FamilyReader(const Scene& of, const ModelRequest& request)
       : scene(of),
         draft(of, request),
-        table(draft.reader(only_table(of, "matrix_family"), "[matrix_family]")) {}
+        table(draft.reader(only_table(of, "matrix_family"), "[matrix_family]")),
+        variable(traced_index(
+            of, "matrix_family",
+            "the parameter whose powers multiply the matrices, also when another one is traced")) {}
 
   const Scene& scene;
   Draft draft;
   TableReader table;
+  int variable;  ///< index of the parameter whose powers multiply the matrices
   std::size_t n_numbers = 0;
 
   [[noreturn]] void fail(const std::string& key, const std::string& message) const {
@@ -40,26 +62,28 @@ struct FamilyReader {
     return has_A && !second_order;
   }
 
-  /// The polynomial as written in the scene. Constants are stored in the coefficients, expressions as
-  /// entries.
-  MatrixPolynomial from_scene(const std::string& key) {
+  /// The polynomial as written in the scene.
+  Polynomial from_scene(const std::string& key) {
     const auto matrices = table.matrices(key);
     if (matrices.empty()) fail(key, "expected at least one matrix");
     if (static_cast<int>(matrices.size()) > max_power + 1) {
       fail(key, "has powers beyond " + std::to_string(max_power));
     }
-    MatrixPolynomial polynomial;
-    for (std::size_t power = 0; power < matrices.size(); ++power) {
-      add_coefficient(polynomial, static_cast<int>(power), matrices[power], key);
-    }
+    Polynomial polynomial;
+    DenseTerms of_expressions;
+    for (const auto& rows : matrices) add_power(polynomial, of_expressions, rows, key);
+    polynomial.terms.insert(polynomial.terms.end(), of_expressions.begin(), of_expressions.end());
     return polynomial;
   }
 
-  void add_coefficient(MatrixPolynomial& polynomial, int power,
-                       const std::vector<std::vector<Expression>>& rows, const std::string& key) const {
+  /// Adds the matrix of the next power.
+  void add_power(Polynomial& polynomial, DenseTerms& of_expressions,
+                 const std::vector<std::vector<Expression>>& rows, const std::string& key) {
+    const int power = polynomial.powers++;
     const auto n_rows = static_cast<Eigen::Index>(rows.size());
     const auto n_columns = static_cast<Eigen::Index>(rows.empty() ? 0 : rows[0].size());
-    Matrix& coefficient = polynomial.coefficients.emplace_back(Matrix::Zero(n_rows, n_columns));
+    Matrix constant = Matrix::Zero(n_rows, n_columns);
+    ExpressionTerms expressions(n_rows, n_columns, scene.parameters);
     for (Eigen::Index r = 0; r < n_rows; ++r) {
       const auto& row = rows[static_cast<std::size_t>(r)];
       if (static_cast<Eigen::Index>(row.size()) != n_columns) {
@@ -69,47 +93,45 @@ struct FamilyReader {
       for (Eigen::Index c = 0; c < n_columns; ++c) {
         const Expression& entry = row[static_cast<std::size_t>(c)];
         if (entry.is_constant()) {
-          coefficient(r, c) = entry.evaluate(std::span<const double>());
+          constant(r, c) = entry.evaluate(std::span<const double>());
         } else {
           draft.check_range(table, key, entry, Range::any);
-          polynomial.entries.push_back({power, r, c, entry});
+          expressions.add(r, c, entry);
         }
       }
     }
+    const Expression factor = power_of_parameter(variable, power);
+    polynomial.terms.push_back({factor, std::move(constant)});
+    for (AffineTerm<Matrix>& term : expressions.take(factor)) of_expressions.push_back(std::move(term));
   }
 
   /// Counts the numbers of all matrices, zeros included.
   void count(std::size_t numbers) {
     n_numbers += numbers;
     if (n_numbers > limits::matrix_numbers) {
-      fail("file", "more than " + std::to_string(limits::matrix_numbers) +
-                       " numbers in all matrices together, those of absent powers among them");
+      fail("file",
+           "more than " + std::to_string(limits::matrix_numbers) + " numbers in all matrices together");
     }
   }
 
-  /// The polynomial in the matrices KEY/0, KEY/1, ... of a file or in memory; absent powers are zero.
+  /// The polynomial in the matrices KEY/0, KEY/1, ... of a file or in memory.
   template <class Source>
-  MatrixPolynomial polynomial_in(const Source& source, const std::string& key) {
-    MatrixPolynomial polynomial;
+  Polynomial polynomial_in(const Source& source, const std::string& key) {
+    Polynomial polynomial;
     for (const std::string& name : names_in(source, key)) {
-      const std::size_t power = power_of(name, key);
-      if (power >= polynomial.coefficients.size()) polynomial.coefficients.resize(power + 1);
-      polynomial.coefficients[power] = matrix(source, key, name);
-    }
-    for (Matrix& c : polynomial.coefficients) {
-      if (c.size() != 0) continue;
-      count(static_cast<std::size_t>(polynomial.coefficients.back().size()));
-      c = Matrix::Zero(polynomial.coefficients.back().rows(), polynomial.coefficients.back().cols());
+      const int power = power_of(name, key);
+      polynomial.terms.push_back({power_of_parameter(variable, power), matrix(source, key, name)});
+      polynomial.powers = std::max(polynomial.powers, power + 1);
     }
     return polynomial;
   }
 
-  std::size_t power_of(const std::string& name, const std::string& key) const {
+  int power_of(const std::string& name, const std::string& key) const {
     const std::optional<int> power = power_in(name);
     if (!power || *power < 0 || *power > max_power)
       fail("file",
            "dataset /" + key + "/" + name + ": expected a power from 0 to " + std::to_string(max_power));
-    return static_cast<std::size_t>(*power);
+    return *power;
   }
 
   /// The names of the matrices of a group; none if it is absent.
@@ -149,13 +171,14 @@ struct FamilyReader {
   }
 
   /// `first`: the key of the matrix that gives the size. `constraints`: rows of the matrix are constraints.
-  void check_shape(const MatrixPolynomial& polynomial, const std::string& key, Eigen::Index n,
+  void check_shape(const Polynomial& polynomial, const std::string& key, Eigen::Index n,
                    const std::string& first, bool constraints) const {
-    for (const Matrix& c : polynomial.coefficients) {
+    for (const AffineTerm<Matrix>& term : polynomial.terms) {
+      const Matrix& c = term.matrix;
       const bool square = constraints || c.rows() == n;
-      if (c.cols() != n || !square || c.rows() != polynomial.coefficients[0].rows()) {
+      if (c.cols() != n || !square || c.rows() != polynomial.terms[0].matrix.rows()) {
         const std::string size = "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols());
-        if (key == first && &c == &polynomial.coefficients[0]) fail(key, size + "; expected a square matrix");
+        if (key == first && &term == &polynomial.terms[0]) fail(key, size + "; expected a square matrix");
         fail(key, size + ", " + first + " is " + std::to_string(n) + " x " + std::to_string(n) + "; " +
                       (constraints ? "A needs as many columns, and the same rows for every power"
                                    : "all have the same size"));
@@ -165,41 +188,27 @@ struct FamilyReader {
   }
 };
 
-/// Index of the parameter whose powers multiply the coefficients: the one that [trace] of the scene names.
-int variable_index(const Scene& scene) {
-  return traced_index(scene, "matrix_family",
-                      "the parameter whose powers multiply the matrices, also when another one is traced");
-}
-
-struct Polynomials {
-  MatrixPolynomial M, C, K, A;
+/// The matrices of M x'' + C x' + K x = 0 with A x = 0.
+struct Equations {
+  Polynomial M = {}, C = {}, K = {}, A = {};
   bool first_order = false;  ///< C and K are E and -A of E x' = A x
   std::vector<std::string> state_names = {};
 };
 
-MatrixPolynomial negated(MatrixPolynomial polynomial) {
-  for (Matrix& c : polynomial.coefficients) c = -c;
-  for (MatrixPolynomial::Entry& entry : polynomial.entries) entry.expression = -entry.expression;
-  return polynomial;
-}
-
-MatrixPolynomial constant(const Matrix& matrix) {
-  return {{matrix}, {}};
-}
-
 /// Writes E x' = A x, E the identity if it is absent, with the matrices of the second-order form. The shapes
 /// are checked later.
-Polynomials first_order(MatrixPolynomial E, MatrixPolynomial A) {
-  const Eigen::Index n = A.coefficients[0].cols();
-  if (E.empty()) E = constant(Matrix::Identity(n, n));
-  return {{}, std::move(E), negated(std::move(A)), {}, true};
+Equations first_order(Polynomial E, Polynomial A) {
+  const Eigen::Index n = A.terms[0].matrix.cols();
+  if (E.empty()) E = {{{1.0, Matrix::Identity(n, n)}}, 1};
+  for (AffineTerm<Matrix>& term : A.terms) term.matrix = -term.matrix;
+  return {{}, std::move(E), std::move(A), {}, true};
 }
 
 const std::string expected_datasets =
     "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
 
 template <class Source>
-Polynomials polynomials_in(FamilyReader& reader, const Source& source) {
+Equations equations_in(FamilyReader& reader, const Source& source) {
   const auto has = [&](const char* key) { return !reader.names_in(source, key).empty(); };
   if (reader.is_first_order(has("M"), has("C"), has("K"), has("E"), has("A"), "file"))
     return first_order(reader.polynomial_in(source, "E"), reader.polynomial_in(source, "A"));
@@ -207,20 +216,20 @@ Polynomials polynomials_in(FamilyReader& reader, const Source& source) {
           reader.polynomial_in(source, "K"), reader.polynomial_in(source, "A")};
 }
 
-Polynomials read_file(FamilyReader& reader) {
+Equations read_file(FamilyReader& reader) {
   for (const char* key : {"M", "C", "K", "A", "E"}) {
     if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
   }
-  Polynomials p;
+  Equations p;
   try {
     const auto in_memory = reader.scene.matrices.find(reader.table.text("file"));
     if (in_memory != reader.scene.matrices.end()) {
-      p = polynomials_in(reader, in_memory->second);
+      p = equations_in(reader, in_memory->second);
     } else {
       const Hdf5File file = open_beside_scene(reader.scene, reader.table);
       const std::string fault = unknown_member(file, {"M", "C", "K", "A", "E", "state_names"});
       if (!fault.empty()) reader.fail("file", fault);
-      p = polynomials_in(reader, file);
+      p = equations_in(reader, file);
       if (file.has("/state_names")) p.state_names = file.read_texts("/state_names");
     }
   } catch (const Hdf5Error& error) {
@@ -245,19 +254,18 @@ std::unique_ptr<Model> read_if_sparse(FamilyReader& reader) {
   try {
     const Hdf5File file = open_beside_scene(reader.scene, reader.table);
     if (!has_factors && !has_sparse_matrices(file)) return nullptr;
-    return read_sparse_family(reader.scene, reader.table, file, variable_index(reader.scene),
-                              reader.draft.used);
+    return read_sparse_family(reader.scene, reader.table, file, reader.variable, reader.draft.used);
   } catch (const Hdf5Error& error) {
     reader.fail("file", error.what() + expected_datasets);
   }
 }
 
-Polynomials read_table(FamilyReader& reader) {
+Equations read_table(FamilyReader& reader) {
   TableReader& table = reader.table;
-  Polynomials p;
+  Equations p;
   if (reader.is_first_order(table.has("M"), table.has("C"), table.has("K"), table.has("E"), table.has("A"),
                             "E")) {
-    MatrixPolynomial E;
+    Polynomial E;
     if (table.has("E")) E = reader.from_scene("E");
     return first_order(std::move(E), reader.from_scene("A"));
   }
@@ -268,42 +276,64 @@ Polynomials read_table(FamilyReader& reader) {
   return p;
 }
 
+std::vector<Effect> effects_of_equations(const Equations& p) {
+  const auto count = [](const Polynomial& polynomial) {
+    return polynomial.is_zero() ? 0 : polynomial.powers;
+  };
+  if (p.first_order) {
+    return {{"M", "mass matrix", 0, {.inertia = true}},
+            {"E", "matrix of the derivatives", count(p.C), {.dissipative = true, .gyroscopic = true}},
+            {"A", "state matrix", count(p.K), {.conservative = true, .circulatory = true}},
+            {"constraints", "constraint matrix", 0, {.constraint = true}}};
+  }
+  return {{"M", "mass matrix, polynomial in the traced parameter", count(p.M), {.inertia = true}},
+          {"C",
+           "damping and gyroscopic matrix",
+           count(p.C),
+           {.dissipative = !all_equal_transposes(p.C.terms, -1.0),
+            .gyroscopic = !all_equal_transposes(p.C.terms, 1.0)}},
+          {"K",
+           "stiffness matrix",
+           count(p.K),
+           {.conservative = true, .circulatory = !all_equal_transposes(p.K.terms, 1.0)}},
+          {"A", "constraint matrix", count(p.A), {.constraint = true}}};
+}
+
 }  // namespace
 
 std::unique_ptr<Model> read_matrix_family(const Scene& scene, const ModelRequest& request) {
   FamilyReader reader(scene, request);
   if (auto sparse = read_if_sparse(reader)) return sparse;
-  Polynomials p = reader.table.has("file") ? read_file(reader) : read_table(reader);
+  Equations p = reader.table.has("file") ? read_file(reader) : read_table(reader);
   if (reader.table.has("state_names")) p.state_names = reader.table.texts("state_names");
   reader.table.finish();
 
   const std::string first = p.first_order ? "A" : p.M.empty() ? "K" : "M";
-  const Eigen::Index n = (p.M.empty() || p.first_order ? p.K : p.M).coefficients[0].rows();
+  const Eigen::Index n = (p.M.empty() || p.first_order ? p.K : p.M).terms[0].matrix.rows();
   if (n == 0 || n > max_size) {
     reader.fail(first, "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
   }
   const std::string fault = fault_of_names(p.state_names, n);
   if (!fault.empty()) reader.fail("state_names", fault);
-  const int variable = variable_index(scene);
   const char* damping = p.first_order ? "E" : "C";
   const char* stiffness = p.first_order ? "A" : "K";
-  std::vector<std::pair<MatrixPolynomial*, std::string>> all{
+  std::vector<std::pair<const Polynomial*, std::string>> all{
       {&p.M, "M"}, {&p.C, damping}, {&p.K, stiffness}, {&p.A, "A"}};
   // The matrix that gives the size is the first to be checked.
   std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one.second == first; });
   for (const auto& [polynomial, key] : all) {
     reader.check_shape(*polynomial, key, n, first, polynomial == &p.A);
-    if (polynomial->coefficients.size() > 1) reader.draft.used.insert(variable);
+    if (polynomial->powers > 1) reader.draft.used.insert(reader.variable);
   }
-  if (p.M.empty()) p.M = constant(Matrix::Zero(n, n));
   ModelDescription description = describe_states(n, p.state_names);
-  for (Eigen::Index i = 0; !p.A.empty() && i < p.A.coefficients[0].rows(); ++i)
+  for (Eigen::Index i = 0; !p.A.empty() && i < p.A.terms[0].matrix.rows(); ++i)
     description.constraint_names.push_back("A row " + std::to_string(i + 1));
   description.parameters = scene.parameters;
   description.unused_parameters = unused_parameters(scene, reader.draft.used);
-  return std::make_unique<MatrixFamily>(std::move(description), variable, std::move(p.M), std::move(p.C),
-                                        std::move(p.K), std::move(p.A),
-                                        p.first_order ? FamilyForm::first_order : FamilyForm::second_order);
+  description.effects = effects_of_equations(p);
+  return std::make_unique<AffineFamily<Matrix>>(
+      std::move(description), AffinePencil<Matrix>{std::move(p.M.terms), std::move(p.C.terms),
+                                                   std::move(p.K.terms), std::move(p.A.terms)});
 }
 
 }  // namespace eigentrail

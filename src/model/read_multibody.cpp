@@ -118,6 +118,8 @@ class ArgumentCollector {
   void quantity(const QuantityField&, const Quantity&) {}
   void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
   void matrix(const QuantityField&, const std::array<Quantity, 4>&) {}
+  template <class... Numbers>
+  void numbers(const Numbers&...) {}
 
  private:
   std::vector<Place>& arguments_;

@@ -66,9 +66,7 @@ class SparseReader {
       if (*power < 0 || *power > limits::matrix_power)
         fail("matrix " + path + ": expected a power from 0 to " + std::to_string(limits::matrix_power));
       if (*power > 0) used_.insert(variable_);
-      Expression result = 1.0;
-      for (int i = 0; i < *power; ++i) result = result * Expression::of_parameter(variable_);
-      return result;
+      return power_of_parameter(variable_, *power);
     }
     named_.push_back(name);
     for (const auto& [known, expression] : factors_) {

@@ -105,6 +105,7 @@ class BatchCollector {
         batch.positions.push_back(
             equations_.patterns[static_cast<std::size_t>(entry.target)].position(row, column));
       });
+      note_inputs(batch);
     }
     return std::move(equations_);
   }
@@ -123,6 +124,31 @@ class BatchCollector {
     batch.values = value_program(record);
     batch.derivatives = derivative_program(record);
     return batch;
+  }
+
+  /// Adds to the inputs of the equations those of a batch.
+  void note_inputs(const Batch& batch) {
+    std::array<Inputs, 4> of_matrices;
+    Inputs of_residual;
+    const std::vector<Inputs> derivatives = inputs_by_slot(batch.derivatives);
+    for (const Entry& entry : batch.derivatives.entries)
+      of_matrices[static_cast<std::size_t>(entry.target)].add(
+          derivatives[static_cast<std::size_t>(entry.slot)]);
+    const std::vector<Inputs> values = inputs_by_slot(batch.values);
+    for (const LocalValue& force : batch.values.forces)
+      of_residual.add(values[static_cast<std::size_t>(force.slot)]);
+    if (batch.values.residual >= 0) of_residual.add(values[static_cast<std::size_t>(batch.values.residual)]);
+    const auto add = [&batch](Inputs& sum, const Inputs& local) {
+      sum.coordinates = sum.coordinates || local.coordinates;
+      for (std::size_t element = 0; element < batch.size; ++element) {
+        for (const int number : local.numbers)
+          sum.numbers.insert(batch.numbers[element * static_cast<std::size_t>(batch.record.n_numbers) +
+                                           static_cast<std::size_t>(number)]);
+      }
+    };
+    for (std::size_t target = 0; target < of_matrices.size(); ++target)
+      add(equations_.inputs[target], of_matrices[target]);
+    add(equations_.inputs_of_residual, of_residual);
   }
 
   /// Calls visit(entry, row, column) for the entries of all elements of a batch.

@@ -8,6 +8,7 @@
 
 #include "model/multibody_data.hpp"
 #include "model/record/program.hpp"
+#include "model/record/slots.hpp"
 #include "model/record/smooth_function.hpp"
 
 namespace eigentrail {
@@ -53,6 +54,8 @@ struct RecordedEquations {
   std::vector<std::string> labels;    ///< of elements and constraints, in the order of the scene
   std::vector<std::uint64_t> counts;  ///< occurrences by kind, see EvaluationCounts
   std::array<Pattern, 4> patterns;    ///< of M, C, K and A, by Target
+  std::array<Inputs, 4> inputs;       ///< of their entries; numbers by slot, multipliers behind quantities
+  Inputs inputs_of_residual;          ///< of steady forces and of the left sides of constraints
 };
 
 /// Of elements and constraints that belong to `data`, not necessarily all of it. Slots of multipliers follow

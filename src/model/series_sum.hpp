@@ -34,15 +34,18 @@ class SeriesSum {
     coefficients_.push_back(zero_);
   }
 
-  /// Adds `factor` times a matrix of doubles.
+  /// Adds `factor` times a matrix of doubles. Coefficients that no factor has are not made: zero matrices
+  /// would cost as much as others.
   template <class Storage>
   void add(const Factor& factor, const Storage& matrix) {
-    add_with(factor,
-             [&](Coefficient& sum, const Real& share) { sum += share * matrix.template cast<Real>(); });
-  }
-  /// Adds `factor` to an entry of a dense sum.
-  void add(const Factor& factor, Eigen::Index row, Eigen::Index column) {
-    add_with(factor, [&](Coefficient& sum, const Real& share) { sum(row, column) += share; });
+    using std::isfinite;
+    for (int k = 0; k <= order_; ++k) {
+      finite_ = finite_ && isfinite(factor[k]);
+      if (factor[k] == Real(0.0)) continue;
+      const auto at = static_cast<std::size_t>(k);
+      if (coefficients_.size() <= at) coefficients_.resize(at + 1, zero_);
+      coefficients_[at] += factor[k] * matrix.template cast<Real>();
+    }
   }
 
   /// Whether all factors are finite.
@@ -57,19 +60,6 @@ class SeriesSum {
   }
 
  private:
-  /// Coefficients that no factor has are not made: zero matrices would cost as much as others.
-  template <class Add>
-  void add_with(const Factor& factor, Add add) {
-    using std::isfinite;
-    for (int k = 0; k <= order_; ++k) {
-      finite_ = finite_ && isfinite(factor[k]);
-      if (factor[k] == Real(0.0)) continue;
-      const auto at = static_cast<std::size_t>(k);
-      if (coefficients_.size() <= at) coefficients_.resize(at + 1, zero_);
-      add(coefficients_[at], factor[k]);
-    }
-  }
-
   int order_;
   Coefficient zero_;
   std::vector<Coefficient> coefficients_;

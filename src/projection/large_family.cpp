@@ -65,6 +65,7 @@ class LargeFamily final : public LargeModel {
   std::unique_ptr<ProjectedFamily> model_of(AffinePencil<Matrix> pencil, Matrix basis,
                                             Matrix left_basis) const {
     ModelDescription description = family_->description();
+    if (description.shafts.empty()) description.effects.clear();  // they are the projected matrices
     Projection projection;
     projection.freedoms = family_->n_coordinates();
     projection.names = std::move(description.coordinate_names);

@@ -7,7 +7,7 @@
 //
 // by the null-space method: dx = A+ (g - G du) + Q2 y and dl = (A^T)+ (r - K dx - F du) leave equations for y
 // and du, of which one LU is taken. They are regular also where K itself is singular on the null space. Large
-// models: steady/sparse_bordered_kkt.hpp.
+// models: steady/sparse_kkt.hpp.
 #pragma once
 
 #include <Eigen/LU>

@@ -75,13 +75,14 @@ void KktFactorization::factor_tangent() {
 }
 
 void KktFactorization::solve(const Vector& r, const Vector& g, Vector& dx, Vector& dl) const {
+  Vector unknowns;
   if (sparse_) {
-    sparse_->solve(r, g, dx, dl);
+    sparse_->solve(r, g, Vector(0), dx, dl, unknowns);
     return;
   }
   if (bordered_) {
     const Eigen::Index m = bordered_->n_constraints();
-    Vector reactions, unknowns;
+    Vector reactions;
     bordered_->solve(r, g.head(m), g.tail(g.size() - m), dx, reactions, unknowns);
     dl.resize(g.size());
     dl << reactions, unknowns;

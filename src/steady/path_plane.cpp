@@ -8,7 +8,6 @@
 #include "core/singular_vectors.hpp"
 #include "steady/bordered_kkt.hpp"
 #include "steady/rounding.hpp"
-#include "steady/sparse_bordered_kkt.hpp"
 #include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
@@ -57,13 +56,13 @@ class PlaneSystem {
   }
 
  private:
-  using System = std::variant<BorderedKkt, SparseBorderedKkt>;
+  using System = std::variant<BorderedKkt, SparseKkt>;
 
   static System factored(const Linearization& at, const ConstraintFactorization& constraints,
                          const KktBorder& border) {
     const SystemMatrix &K = at.K[0], &A = at.A[0];
     if (K.is_sparse() && (constraints.is_sparse() || A.rows() == 0))
-      return System(std::in_place_type<SparseBorderedKkt>, K.sparse(), A.sparse(), border);
+      return System(std::in_place_type<SparseKkt>, K.sparse(), A.sparse(), border);
     return System(std::in_place_type<BorderedKkt>, K, constraints, border);
   }
 
@@ -254,10 +253,10 @@ Matrix directions_of_the_whole(const Model& model, const Path& point, int traced
     return {};
   const std::optional<KktKernel> kernel = kkt_kernel(K, A);
   if (!kernel) return {};
-  const Eigen::Index n = K.rows(), m = A.rows();
-  const KktBorder border{kernel->left, Matrix::Zero(m, 1), kernel->right.transpose(), {}, Matrix::Zero(1, 1)};
+  const Eigen::Index n = K.rows();
   Vector followed, multipliers, rest;
-  SparseBorderedKkt(K, A, border).solve(-force, -constraint, Vector::Zero(1), followed, multipliers, rest);
+  SparseKkt(K, A, kernel->border(A.rows()))
+      .solve(-force, -constraint, Vector::Zero(1), followed, multipliers, rest);
   Matrix directions(n + 1, 2);
   directions.col(0) << kernel->right, 0.0;
   directions.col(1) << followed, 1.0;

@@ -66,9 +66,15 @@ double linearize_by_nested_series(const Sample<Element>& sample, const PathValue
   }
   const auto n_vectors = static_cast<int>(positions.size());
   double sum = 0.0;
-  constexpr Dependence depends = Element::depends;
+  const RecordedEquations equations = sample.record();
   for (int motion = 0; motion < 3; ++motion) {
-    if (!(motion == 0 ? depends.position : motion == 1 ? depends.velocity : depends.acceleration)) continue;
+    constexpr std::array targets = {eigentrail::Target::stiffness, eigentrail::Target::damping,
+                                    eigentrail::Target::mass};
+    const std::vector<Entry>& entries = equations.batches.front().derivatives.entries;
+    const bool depends = std::any_of(entries.begin(), entries.end(), [&](const Entry& entry) {
+      return entry.target == targets[static_cast<std::size_t>(motion)];
+    });
+    if (!depends) continue;
     for (int component = 0; component < 3 * n_vectors; ++component) {
       std::vector<MovingVector<Nested>> vectors;
       for (int i = 0; i < n_vectors; ++i) {

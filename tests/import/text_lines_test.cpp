@@ -22,15 +22,6 @@ TEST(TextLines, EndsOfEverySystem) {
   EXPECT_EQ(lines.next(), std::nullopt);
 }
 
-TEST(TextLines, ALineThatIsGivenBackComesAgain) {
-  TextLines lines("a\nb", "file");
-  lines.next();
-  lines.next();
-  lines.back();
-  EXPECT_EQ(lines.line(), 1);
-  EXPECT_EQ(lines.next(), "b");
-}
-
 TEST(TextLines, ErrorsNameFileAndLine) {
   TextLines lines("a\nb", "file.txt");
   lines.next();

@@ -132,31 +132,43 @@ INSTANTIATE_TEST_SUITE_P(Registry, ElementDerivatives,
                          testing::Range(std::size_t{0}, eigentrail::Elements::kinds),
                          [](const auto& tested) { return element_names()[tested.param]; });
 
-/// What an element declares is what its record has. If a declaration were missing, a matrix would be taken as
-/// constant, without an error.
-TEST(Registry, DeclaredDependencesAreThoseOfTheRecords) {
-  eigentrail::Elements().for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
+/// What a matrix depends on by its record is what changes it. If an input were missing, the matrix would be
+/// taken as constant, without an error.
+TEST_P(ElementDerivatives, InputsOfTheRecordAreWhatChangesMatricesAndForces) {
+  eigentrail::Elements().for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t kind) {
+    if (kind != GetParam()) return;
     const Sample<Element> sample;
     const RecordedEquations equations = sample.record();
-    EquationWork<double> work;
-    Linearization here, there;
-    PathValues<double> values = sample.path_values(0);
-    ASSERT_FALSE(evaluate_linearization(equations, values, work, here));
-    values.coordinates.row(0).array() +=
-        Eigen::ArrayXd::LinSpaced(values.coordinates.cols(), 0.1, 0.3).transpose();
-    ASSERT_FALSE(evaluate_linearization(equations, values, work, there));
-    constexpr Dependence depends = Element::depends;
-    const bool has_states = number_of_states<Element>() > 0;
-    EXPECT_EQ(depends.position || has_states, here.K[0].norm() > 0.0) << Element::name;
-    EXPECT_EQ(depends.velocity || has_states, here.C[0].norm() > 0.0) << Element::name;
-    EXPECT_EQ(depends.acceleration, here.M[0].norm() > 0.0) << Element::name;
-    const auto changes = [](const SystemMatrix& a, const SystemMatrix& b) {
-      return (a.dense() - b.dense()).norm() > 1e-12 * a.norm();
+    const PathValues<double> values = sample.path_values(0);
+    using Parts = std::array<Matrix, 4>;  // M, C, K and the forces
+    const auto parts_at = [&](const PathValues<double>& at) {
+      EquationWork<double> work;
+      Linearization lin;
+      SteadyResidual residual{Matrix::Zero(sample.data.n_coordinates, 1), Matrix()};
+      EXPECT_FALSE(evaluate_linearization(equations, at, work, lin));
+      EXPECT_FALSE(evaluate_residual(equations, at, work, residual));
+      return Parts{lin.M[0].dense(), lin.C[0].dense(), lin.K[0].dense(), residual.force};
     };
-    if (!has_states) {
-      EXPECT_EQ(depends.turning, changes(here.C[0], there.C[0])) << Element::name;
+    const std::array inputs = {&equations.inputs[0], &equations.inputs[1], &equations.inputs[2],
+                               &equations.inputs_of_residual};
+    const Parts here = parts_at(values);
+    const auto changes = [&](const Parts& there, std::size_t i) {
+      return (here[i] - there[i]).norm() > 1e-12 * here[i].norm();
+    };
+    PathValues<double> elsewhere = values;
+    elsewhere.coordinates.row(0).array() +=
+        Eigen::ArrayXd::LinSpaced(values.coordinates.cols(), 0.1, 0.3).transpose();
+    const Parts moved = parts_at(elsewhere);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_EQ(inputs[i]->coordinates, changes(moved, i)) << Element::name << ", part " << i;
+    for (Eigen::Index number = 0; number < values.numbers.cols(); ++number) {
+      PathValues<double> other = values;
+      other.numbers(0, number) += 0.05;
+      const Parts there = parts_at(other);
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(inputs[i]->numbers.contains(static_cast<int>(number)), changes(there, i))
+            << Element::name << ", part " << i << ", number " << number;
     }
-    EXPECT_EQ(depends.turning_mass, changes(here.M[0], there.M[0])) << Element::name;
   });
 }
 

@@ -1,5 +1,5 @@
 // The sparse method of the system on a plane across the path, compared with the null-space method.
-#include "steady/sparse_bordered_kkt.hpp"
+#include "steady/sparse_kkt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,7 @@ Solution solve(const System& system, bool sparse) {
   Solution result;
   Vector du;
   if (sparse) {
-    SparseBorderedKkt(system.K.sparseView(), system.A.sparseView(), border)
-        .solve(r, g, h, result.dx, result.dl, du);
+    SparseKkt(system.K.sparseView(), system.A.sparseView(), border).solve(r, g, h, result.dx, result.dl, du);
   } else {
     BorderedKkt(system.K, ConstraintFactorization(system.A), border).solve(r, g, h, result.dx, result.dl, du);
   }
@@ -102,7 +101,7 @@ TEST(BorderedKkt, RoutesAgreeWithSeveralUnknowns) {
   const Vector h = Vector::LinSpaced(3, 0.5, 1.0);
   Solution sparse, dense;
   Vector unknowns, expected;
-  SparseBorderedKkt(system.K.sparseView(), system.A.sparseView(), border)
+  SparseKkt(system.K.sparseView(), system.A.sparseView(), border)
       .solve(r, g, h, sparse.dx, sparse.dl, unknowns);
   BorderedKkt(system.K, ConstraintFactorization(system.A), border)
       .solve(r, g, h, dense.dx, dense.dl, expected);

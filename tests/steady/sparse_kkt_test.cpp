@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "eigentrail/steady/kkt_factorization.hpp"
 #include "steady/constrained_chain.hpp"
-#include "steady/sparse_bordered_kkt.hpp"
 
 namespace eigentrail::test::sparse_kkt_test {
 namespace {

@@ -16,8 +16,6 @@ class Filler {
   explicit Filler(std::vector<Place>& arguments) : arguments_(arguments) {}
 
   int n_numbers() const { return n_numbers_; }
-  /// Slot of the speed of sound; sections are slower.
-  int sound() const { return sound_; }
 
   /// Every second vector is a weighted sum of two.
   void place(std::string_view, Place& place, std::string_view = {}) {
@@ -34,20 +32,23 @@ class Filler {
   void joint(std::string_view key, HingeAngle& angle, std::string_view) {
     for (Place* d : {&angle.axis, &angle.from, &angle.to}) place(key, *d);
   }
-  void quantity(const QuantityField& field, Quantity& q) {
-    if (field.key == "speed_of_sound") sound_ = n_numbers_;
-    q = {1.0, n_numbers_++};
-  }
-  void vector(const QuantityField&, std::array<Quantity, 3>& v) {
-    for (Quantity& q : v) q = {1.0, n_numbers_++};
-  }
-  void matrix(const QuantityField&, std::array<Quantity, 4>& m) {
-    for (Quantity& q : m) q = {1.0, n_numbers_++};
+  void quantity(const QuantityField&, Quantity& q) { numbers(q); }
+  void vector(const QuantityField&, std::array<Quantity, 3>& v) { numbers(v); }
+  void matrix(const QuantityField&, std::array<Quantity, 4>& m) { numbers(m); }
+  template <class... Numbers>
+  void numbers(Numbers&... all) {
+    (fill(all), ...);
   }
 
  private:
+  void fill(Quantity& q) { q = {1.0, n_numbers_++}; }
+  template <std::size_t N>
+  void fill(std::array<Quantity, N>& list) {
+    for (Quantity& q : list) fill(q);
+  }
+
   std::vector<Place>& arguments_;
-  int n_numbers_ = 0, sound_ = -1;
+  int n_numbers_ = 0;
 };
 
 /// An element with data, as a model of its own with coordinates q: those of its triples and states.
@@ -76,7 +77,11 @@ struct Sample {
       numbers(i, 1) = Extended(0.3) * wave(i, 3.0);
       numbers(i, 2) = Extended(0.2) * wave(i, 7.0);
     }
-    if (filler.sound() >= 0) numbers.row(filler.sound()) << Extended(30.0), Extended(1.0), Extended(0.0);
+    if constexpr (std::is_base_of_v<AirSection, Element>) {
+      // Sections are slower than sound.
+      const int sound = placed.element.speed_of_sound.slot;
+      if (sound >= 0) numbers.row(sound) << Extended(30.0), Extended(1.0), Extended(0.0);
+    }
     coordinates.resize(data.n_coordinates, 3);
     for (Eigen::Index i = 0; i < coordinates.rows(); ++i) {
       coordinates(i, 0) = Extended(0.7) * wave(i, 2.0) + Extended(0.05 * static_cast<double>(i));

@@ -1,8 +1,9 @@
 // A model whose matrices are sums of constant matrices with factors that depend on the parameters,
 //
-//   M(p) = sum_i f_i(p) M_i,  and so for C and K;  (M s^2 + C s + K) z = 0,
+//   M(p) = sum_i f_i(p) M_i,  and so for C, K and A;  (M s^2 + C s + K) z = 0, A z = 0,
 //
-// with sparse constant matrices (a large model as another program made it) or dense ones (its projection).
+// with sparse constant matrices (a large model as another program made it) or dense ones (its projection, or
+// matrices given in the scene).
 #pragma once
 
 #include <memory>
@@ -32,22 +33,22 @@ struct AffineTerm {
   Expression scale = 1.0;
 };
 
-/// The summands of M, C and K; an empty list is a zero matrix.
+/// The summands of M, C and K, and of the constraints A; an empty list is a zero matrix.
 template <class Storage>
 struct AffinePencil {
-  std::vector<AffineTerm<Storage>> M, C, K;
+  std::vector<AffineTerm<Storage>> M, C, K, A = {};
 };
 
-/// Storage is SparseMatrix or Matrix. There are no constraints.
+/// Storage is SparseMatrix or Matrix. Only dense families have constraints.
 template <class Storage>
 class AffineFamily : public MatrixModel {
  public:
-  /// The description gives n; its effects are the matrices, unless it has shafts and effects of its own. The
-  /// caller must have checked the sizes.
+  /// The description gives n, and the effects; without them the matrices are the effects. The caller must
+  /// have checked the sizes.
   AffineFamily(ModelDescription description, AffinePencil<Storage> pencil);
 
   const AffinePencil<Storage>& pencil() const { return pencil_; }
-  /// The matrices at one place; `parameters` in declared units.
+  /// The matrices M, C and K at one place; `parameters` in declared units.
   AffinePencil<Storage> at(const Vector& parameters) const;
 
   Structure structure(int traced_parameter) const override;

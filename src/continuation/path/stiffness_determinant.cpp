@@ -7,7 +7,7 @@
 
 #include "core/matrix_series.hpp"
 #include "core/products.hpp"
-#include "steady/sparse_bordered_kkt.hpp"
+#include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
 namespace {

@@ -55,24 +55,14 @@ struct AirSection {
   std::shared_ptr<const Polar> polar = nullptr;  ///< coefficients in place of lift_slope and zero_lift
 
   template <class Self, class Visitor>
-  static void common_fields(Self& self, Visitor& visit, Enters enters) {
+  static void common_fields(Self& self, Visitor& visit) {
     visit.place("quarter_chord", self.quarter_chord, "");
     visit.direction("leading", self.leading, "");
     visit.direction("lift", self.lift, "");
     visit.place("inflow", self.inflow, "");
-    visit.vector({"centre", "m", enters, ""}, self.disc.centre);
-    visit.vector({"axis", "", enters, ""}, self.disc.axis);
-    visit.vector({"x", "1/m", enters, ""}, self.disc.x);
-    visit.vector({"y", "1/m", enters, ""}, self.disc.y);
-    visit.quantity({"blades", "", enters, ""}, self.disc.blades);
-    visit.vector({"angular_velocity", "rad/s", enters, ""}, self.angular_velocity);
-    visit.vector({"wind", "m/s", enters, ""}, self.wind);
-    visit.quantity({"width", "m", enters, ""}, self.width);
-    visit.quantity({"chord", "m", enters, ""}, self.chord);
-    visit.quantity({"density", "kg/m^3", enters, ""}, self.density);
-    visit.quantity({"lift_slope", "1/rad", enters, ""}, self.lift_slope);
-    visit.quantity({"zero_lift", "rad", enters, ""}, self.zero_lift);
-    visit.quantity({"speed_of_sound", "m/s", enters, ""}, self.speed_of_sound);
+    visit.numbers(self.disc.centre, self.disc.axis, self.disc.x, self.disc.y, self.disc.blades,
+                  self.angular_velocity, self.wind, self.width, self.chord, self.density, self.lift_slope,
+                  self.zero_lift, self.speed_of_sound);
   }
 
   template <class Scalar>

@@ -19,20 +19,13 @@ struct ApparentMass : AirSection {
   static constexpr std::string_view description = "inertia of the air that strips move (Theodorsen)";
   static constexpr Contribution contribution{
       .inertia = true, .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
-  static constexpr Dependence depends{
-      .position = true, .velocity = true, .acceleration = true, .turning = true, .turning_mass = true};
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.place("quarter_chord", self.quarter_chord, "");
     visit.direction("leading", self.leading, "");
     visit.direction("lift", self.lift, "");
-    visit.vector({"angular_velocity", "rad/s", enters_damping_and_force, ""}, self.angular_velocity);
-    visit.vector({"wind", "m/s", enters_damping_and_force, ""}, self.wind);
-    constexpr Enters all{.mass = true, .damping = true, .force = true};
-    visit.quantity({"width", "m", all, ""}, self.width);
-    visit.quantity({"chord", "m", all, ""}, self.chord);
-    visit.quantity({"density", "kg/m^3", all, ""}, self.density);
+    visit.numbers(self.angular_velocity, self.wind, self.width, self.chord, self.density);
   }
 
   template <class Scalar>

@@ -37,12 +37,11 @@ struct BeamPoint {
   Quantity width;                                   ///< length that the point stands for, m
 
   template <class Self, class Visitor>
-  static void common_fields(Self& self, Visitor& visit, Enters enters) {
+  static void common_fields(Self& self, Visitor& visit) {
     visit.direction("slope", self.slope, "");
     for (auto& director : self.directors) visit.direction("director", director, "");
     for (auto& rate : self.rates) visit.direction("rate", rate, "");
-    for (auto& entry : self.stiffness) visit.quantity({"stiffness", "", enters, ""}, entry);
-    visit.quantity({"width", "m", enters, ""}, self.width);
+    visit.numbers(self.stiffness, self.width);
   }
 
   /// Gamma and kappa as they are, without those of the unloaded beam.
@@ -116,14 +115,13 @@ struct BeamSection : BeamPoint {
   static constexpr std::string_view name = "beam";
   static constexpr std::string_view description = "elastic forces of a beam at its quadrature points";
   static constexpr Contribution contribution{.conservative = true};
-  static constexpr Dependence depends{.position = true};
 
   std::array<Quantity, 6> unloaded;  ///< strains of the unloaded beam: 1 for Gamma_x of a straight one
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit, enters_force);
-    for (auto& e : self.unloaded) visit.quantity({"unloaded", "", enters_force, ""}, e);
+    common_fields(self, visit);
+    visit.numbers(self.unloaded);
   }
 
   template <class Scalar>
@@ -143,16 +141,14 @@ struct BeamDamping : BeamPoint {
   static constexpr std::string_view name = "beam_damping";
   static constexpr std::string_view description = "damping of a beam by the rates of its strains";
   static constexpr Contribution contribution{.dissipative = true};
-  static constexpr Dependence depends{.velocity = true, .turning = true};
 
   Quantity time;                  ///< s
   std::array<Quantity, 6> roots;  ///< without slot: one
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit, enters_damping);
-    visit.quantity({"time", "s", enters_damping, "", Range::non_negative}, self.time);
-    for (auto& root : self.roots) visit.quantity({"root", "", enters_damping, ""}, root);
+    common_fields(self, visit);
+    visit.numbers(self.time, self.roots);
   }
 
   template <class Scalar>

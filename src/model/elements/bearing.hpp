@@ -15,7 +15,6 @@ struct Bearing {
       "bearing with 2 x 2 stiffness and damping matrices, cross-coupled where they are unsymmetric";
   static constexpr Contribution contribution{
       .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
-  static constexpr Dependence depends{.position = true, .velocity = true};
 
   Place point, seat;
   std::array<Quantity, 3> first, second;
@@ -25,13 +24,10 @@ struct Bearing {
   static void fields(Self& self, Visitor& visit) {
     visit.point("point", self.point, "the point it holds");
     visit.place("seat", self.seat, "where the point rests without force");
-    visit.vector({"first", "", enters_damping_and_force, "first direction, of any length", Range::positive},
-                 self.first);
-    visit.vector({"second", "", enters_damping_and_force, "second direction, of any length", Range::positive},
-                 self.second);
-    visit.matrix({"stiffness", "N/m", enters_force, "[[k11, k12], [k21, k22]]"}, self.stiffness);
-    visit.matrix({"damping", "N s/m", enters_damping, "[[c11, c12], [c21, c22]]", Range::any, 0.0},
-                 self.damping);
+    visit.vector({"first", "", "first direction, of any length", Range::positive}, self.first);
+    visit.vector({"second", "", "second direction, of any length", Range::positive}, self.second);
+    visit.matrix({"stiffness", "N/m", "[[k11, k12], [k21, k22]]"}, self.stiffness);
+    visit.matrix({"damping", "N s/m", "[[c11, c12], [c21, c22]]", Range::any, 0.0}, self.damping);
   }
 
   template <class Scalar>

@@ -21,7 +21,6 @@ struct BladeElement {
   static constexpr std::string_view description = "quasi-steady lift and drag of the strips of a blade";
   static constexpr Contribution contribution{
       .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
-  static constexpr Dependence depends{.position = true, .velocity = true, .turning = true};
 
   Place point, leading, lift;
   std::array<Quantity, 3> angular_velocity, inflow;
@@ -30,27 +29,11 @@ struct BladeElement {
   /// `point` is the middle of a strip and `width` its length; the scene gives the ends of the blade.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.place("point", self.point, "middle of the strip");
-    visit.direction("leading", self.leading, "direction from trailing to leading edge");
-    visit.direction("lift", self.lift, "direction of lift");
-    visit.quantity({"width", "m", enters_damping_and_force, "length of the strip"}, self.width);
-    visit.quantity({"chord", "m", enters_damping_and_force, "chord", Range::non_negative}, self.chord);
-    visit.quantity(
-        {"density", "kg/m^3", enters_damping_and_force, "density of the air", Range::non_negative, 1.225},
-        self.density);
-    visit.quantity({"lift_slope", "1/rad", enters_damping_and_force, "slope of the lift coefficient"},
-                   self.lift_slope);
-    visit.quantity(
-        {"profile_drag", "", enters_damping_and_force, "profile drag coefficient", Range::non_negative, 0.0},
-        self.profile_drag);
-    visit.quantity({"pitch", "rad", enters_damping_and_force,
-                    "pitch of the sections, nose up, besides that of the body", Range::any, 0.0},
-                   self.pitch);
-    visit.vector(
-        {"inflow", "m/s", enters_damping_and_force, "velocity of the air in the frame", Range::any, 0.0},
-        self.inflow);
-    visit.vector({"angular_velocity", "rad/s", enters_damping_and_force, "of the frame", Range::any, 0.0},
-                 self.angular_velocity);
+    visit.place("point", self.point, "");
+    visit.direction("leading", self.leading, "");
+    visit.direction("lift", self.lift, "");
+    visit.numbers(self.width, self.chord, self.density, self.lift_slope, self.profile_drag, self.pitch,
+                  self.inflow, self.angular_velocity);
   }
 
   template <class Scalar>

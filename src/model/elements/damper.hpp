@@ -10,7 +10,6 @@ struct Damper {
   static constexpr std::string_view name = "damper";
   static constexpr std::string_view description = "linear damper between two places";
   static constexpr Contribution contribution{.dissipative = true};
-  static constexpr Dependence depends{.velocity = true, .turning = true};
 
   Place from, to;
   Quantity coefficient;
@@ -19,8 +18,7 @@ struct Damper {
   static void fields(Self& self, Visitor& visit) {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
-    visit.quantity({"coefficient", "N s/m", enters_damping, "force per rate of elongation"},
-                   self.coefficient);
+    visit.quantity({"coefficient", "N s/m", "force per rate of elongation"}, self.coefficient);
   }
 
   template <class Scalar>

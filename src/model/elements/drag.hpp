@@ -9,7 +9,6 @@ struct Drag {
   static constexpr std::string_view name = "drag";
   static constexpr std::string_view description = "viscous drag -r v, v relative to the frame";
   static constexpr Contribution contribution{.dissipative = true};
-  static constexpr Dependence depends{.velocity = true};
 
   Place point;
   Quantity coefficient;
@@ -17,7 +16,7 @@ struct Drag {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.point("point", self.point, "the point it acts on");
-    visit.quantity({"coefficient", "N s/m", enters_damping, "drag per velocity"}, self.coefficient);
+    visit.quantity({"coefficient", "N s/m", "drag per velocity"}, self.coefficient);
   }
 
   template <class Scalar>

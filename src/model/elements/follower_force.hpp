@@ -11,7 +11,6 @@ struct FollowerForce {
   static constexpr std::string_view description =
       "force of given magnitude that turns with the line between two places";
   static constexpr Contribution contribution{.circulatory = true};
-  static constexpr Dependence depends{.position = true};
 
   Place point, from, to;
   Quantity magnitude, angle;
@@ -22,12 +21,9 @@ struct FollowerForce {
     visit.point("point", self.point, "the point it acts on");
     visit.place("from", self.from, "where the line begins");
     visit.place("to", self.to, "where the line ends");
-    visit.quantity({"magnitude", "N", enters_force, "the force, along from -> to where positive"},
-                   self.magnitude);
-    visit.quantity({"angle", "rad", enters_force, "turns the direction about the axis", Range::any, 0.0},
-                   self.angle);
-    visit.vector({"axis", "", enters_force, "axis of that turn, of any length", Range::positive, 1.0},
-                 self.axis);
+    visit.quantity({"magnitude", "N", "the force, along from -> to where positive"}, self.magnitude);
+    visit.quantity({"angle", "rad", "turns the direction about the axis", Range::any, 0.0}, self.angle);
+    visit.vector({"axis", "", "axis of that turn, of any length", Range::positive, 1.0}, self.axis);
   }
 
   template <class Scalar>

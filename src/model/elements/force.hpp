@@ -9,7 +9,6 @@ struct DeadForce {
   static constexpr std::string_view name = "force";
   static constexpr std::string_view description = "dead force: fixed components in the frame";
   static constexpr Contribution contribution{.conservative = true};
-  static constexpr Dependence depends{};
 
   Place point;
   std::array<Quantity, 3> components;
@@ -17,7 +16,7 @@ struct DeadForce {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.point("point", self.point, "the point it acts on");
-    visit.vector({"components", "N", enters_force, "the force [x, y, z]"}, self.components);
+    visit.vector({"components", "N", "the force [x, y, z]"}, self.components);
   }
 
   template <class Scalar>

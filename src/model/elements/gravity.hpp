@@ -9,15 +9,14 @@ struct Gravity {
   static constexpr std::string_view name = "gravity";
   static constexpr std::string_view description = "uniform gravity on every mass";
   static constexpr Contribution contribution{.conservative = true};
-  static constexpr Dependence depends{};
 
   MassDistribution masses;
   std::array<Quantity, 3> acceleration;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    MassDistribution::fields(self.masses, visit, enters_force);
-    visit.vector({"acceleration", "m/s^2", enters_force, "acceleration of gravity"}, self.acceleration);
+    MassDistribution::fields(self.masses, visit);
+    visit.numbers(self.acceleration);
   }
 
   template <class Scalar>

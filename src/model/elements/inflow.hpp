@@ -30,7 +30,6 @@ struct Inflow {
   static constexpr std::string_view description =
       "velocity that a rotor induces (momentum theory, Pitt and Peters)";
   static constexpr Contribution contribution{.conservative = true, .circulatory = true, .dissipative = true};
-  static constexpr Dependence depends{.position = true, .velocity = true};
 
   Place velocity;                                        ///< (v_0, v_x, v_y), m/s
   std::array<Quantity, 3> axis, wind, angular_velocity;  ///< unit vector; m/s; of the frame, rad/s
@@ -42,14 +41,8 @@ struct Inflow {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.place("velocity", self.velocity, "");
-    visit.vector({"axis", "", enters_damping_and_force, ""}, self.axis);
-    visit.vector({"wind", "m/s", enters_force, ""}, self.wind);
-    visit.vector({"angular_velocity", "rad/s", enters_force, ""}, self.angular_velocity);
-    visit.quantity({"radius", "m", enters_damping_and_force, ""}, self.radius);
-    visit.quantity({"density", "kg/m^3", enters_damping_and_force, ""}, self.density);
-    visit.quantity({"area", "m^2", enters_damping_and_force, ""}, self.area);
-    visit.quantity({"to_the_tip", "", enters_force, ""}, self.to_the_tip);
-    visit.quantity({"at_radius", "m", enters_force, ""}, self.at_radius);
+    visit.numbers(self.axis, self.wind, self.angular_velocity, self.radius, self.density, self.area,
+                  self.to_the_tip, self.at_radius);
   }
 
   template <class Scalar>

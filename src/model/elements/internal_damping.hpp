@@ -11,7 +11,6 @@ struct InternalDamping {
   static constexpr std::string_view name = "internal_damping";
   static constexpr std::string_view description = "damping within a rotating shaft";
   static constexpr Contribution contribution{.circulatory = true, .dissipative = true};
-  static constexpr Dependence depends{.position = true, .velocity = true};
 
   Place point, about;
   std::array<Quantity, 3> axis;
@@ -21,11 +20,9 @@ struct InternalDamping {
   static void fields(Self& self, Visitor& visit) {
     visit.point("point", self.point, "a point of the shaft");
     visit.place("about", self.about, "where it would be on the straight shaft");
-    visit.vector({"axis", "", enters_damping_and_force, "axis of rotation, of any length", Range::positive},
-                 self.axis);
-    visit.quantity({"coefficient", "N s/m", enters_damping_and_force, "force per velocity in the shaft"},
-                   self.coefficient);
-    visit.quantity({"speed", "rad/s", enters_force, "speed of the shaft"}, self.speed);
+    visit.vector({"axis", "", "axis of rotation, of any length", Range::positive}, self.axis);
+    visit.quantity({"coefficient", "N s/m", "force per velocity in the shaft"}, self.coefficient);
+    visit.quantity({"speed", "rad/s", "speed of the shaft"}, self.speed);
   }
 
   template <class Scalar>

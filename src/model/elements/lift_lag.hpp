@@ -24,7 +24,6 @@ struct LiftLag : AirSection {
       "lag of the lift of strips behind their motion (Wagner, Jones)";
   static constexpr Contribution contribution{
       .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
-  static constexpr Dependence depends{.position = true, .velocity = true, .turning = true};
   static constexpr std::array states{OwnState{"slow", "m/s", "downwash that has come into effect, slow part"},
                                      OwnState{"fast", "m/s", "likewise, fast part"}};
 
@@ -32,9 +31,8 @@ struct LiftLag : AirSection {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit, enters_damping_and_force);
-    for (auto& share : self.shares) visit.quantity({"A", "", enters_damping_and_force, ""}, share);
-    for (auto& rate : self.rates) visit.quantity({"b", "", enters_damping, "", Range::positive}, rate);
+    common_fields(self, visit);
+    visit.numbers(self.shares, self.rates);
   }
 
   template <class Scalar>

@@ -19,12 +19,10 @@ struct MassDistribution {
   std::array<Quantity, 6> second;  ///< G_11, G_22, G_33, G_12, G_13, G_23, kg m^2
 
   template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit, Enters enters) {
+  static void fields(Self& self, Visitor& visit) {
     for (int i = 0; i < self.size; ++i) visit.place("name", self.carriers[i], "");
-    visit.quantity({"mass", "kg", enters, "", Range::non_negative}, self.mass);
-    if (self.size == 1) return;
-    for (auto& moment : self.first) visit.quantity({"centre", "kg m", enters, ""}, moment);
-    for (auto& moment : self.second) visit.quantity({"inertia", "kg m^2", enters, ""}, moment);
+    visit.numbers(self.mass);
+    if (self.size > 1) visit.numbers(self.first, self.second);
   }
 
   /// Entry (i, j) of G.

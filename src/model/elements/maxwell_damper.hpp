@@ -21,7 +21,6 @@ struct MaxwellDamper {
   static constexpr std::string_view name = "maxwell_damper";
   static constexpr std::string_view description = "spring and dashpot in series between two places";
   static constexpr Contribution contribution{.conservative = true, .dissipative = true};
-  static constexpr Dependence depends{.position = true};
   static constexpr std::array states{OwnState{"dashpot", "m", "elongation of the dashpot"}};
 
   Place from, to;
@@ -31,11 +30,11 @@ struct MaxwellDamper {
   static void fields(Self& self, Visitor& visit) {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
-    visit.quantity({"stiffness", "N/m", enters_force, "force per elongation of the spring", Range::positive},
+    visit.quantity({"stiffness", "N/m", "force per elongation of the spring", Range::positive},
                    self.stiffness);
-    visit.quantity({"coefficient", "N s/m", enters_damping, "force per rate of elongation of the dashpot",
-                    Range::non_negative},
-                   self.coefficient);
+    visit.quantity(
+        {"coefficient", "N s/m", "force per rate of elongation of the dashpot", Range::non_negative},
+        self.coefficient);
   }
 
   template <class Scalar>
@@ -55,7 +54,6 @@ struct TorsionalMaxwellDamper {
   static constexpr std::string_view name = "torsional_maxwell_damper";
   static constexpr std::string_view description = "spring and dashpot in series on the angle of a joint";
   static constexpr Contribution contribution{.conservative = true, .dissipative = true};
-  static constexpr Dependence depends{.position = true};
   static constexpr std::array states{OwnState{"dashpot", "rad", "angle of the dashpot"}};
 
   HingeAngle angle;
@@ -64,11 +62,11 @@ struct TorsionalMaxwellDamper {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.joint("joint", self.angle, "the joint whose angle it acts on");
-    visit.quantity({"stiffness", "N m/rad", enters_force, "moment per angle of the spring", Range::positive},
+    visit.quantity({"stiffness", "N m/rad", "moment per angle of the spring", Range::positive},
                    self.stiffness);
-    visit.quantity({"coefficient", "N m s/rad", enters_damping, "moment per rate of the dashpot's angle",
-                    Range::non_negative},
-                   self.coefficient);
+    visit.quantity(
+        {"coefficient", "N m s/rad", "moment per rate of the dashpot's angle", Range::non_negative},
+        self.coefficient);
   }
 
   template <class Scalar>

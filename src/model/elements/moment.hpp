@@ -14,7 +14,6 @@ struct Moment {
   static constexpr std::string_view description =
       "moment on a body along a direction of the frame or of a body";
   static constexpr Contribution contribution{.circulatory = true};
-  static constexpr Dependence depends{.position = true};
 
   std::array<Place, 3> directors;
   Place along;
@@ -24,7 +23,7 @@ struct Moment {
   static void fields(Self& self, Visitor& visit) {
     visit.body("body", self.directors, "the body it acts on");
     visit.direction("along", self.along, "its axis, of any length");
-    visit.quantity({"magnitude", "N m", enters_force, "the moment"}, self.magnitude);
+    visit.quantity({"magnitude", "N m", "the moment"}, self.magnitude);
   }
 
   template <class Scalar>

@@ -10,13 +10,12 @@ struct PointMass {
   static constexpr std::string_view name = "point";
   static constexpr std::string_view description = "a point with mass: inertia force -m a";
   static constexpr Contribution contribution{.inertia = true};
-  static constexpr Dependence depends{.acceleration = true};
 
   MassDistribution masses;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    MassDistribution::fields(self.masses, visit, enters_mass);
+    MassDistribution::fields(self.masses, visit);
   }
 
   template <class Scalar>

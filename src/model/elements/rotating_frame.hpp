@@ -11,17 +11,14 @@ struct RotatingFrame {
   static constexpr std::string_view description =
       "steadily rotating frame: centrifugal and Coriolis forces on every mass";
   static constexpr Contribution contribution{.conservative = true, .gyroscopic = true};
-  static constexpr Dependence depends{.position = true, .velocity = true};
 
   MassDistribution masses;
   std::array<Quantity, 3> angular_velocity;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    MassDistribution::fields(self.masses, visit, enters_damping_and_force);
-    visit.vector({"angular_velocity", "rad/s", enters_damping_and_force,
-                  "angular velocity of the frame, about an axis through the origin"},
-                 self.angular_velocity);
+    MassDistribution::fields(self.masses, visit);
+    visit.numbers(self.angular_velocity);
   }
 
   template <class Scalar>

@@ -12,7 +12,6 @@ struct SpinningDisc {
   static constexpr std::string_view description =
       "gyroscopic moment of a disc that spins about an axis of a body";
   static constexpr Contribution contribution{.gyroscopic = true};
-  static constexpr Dependence depends{.velocity = true, .turning = true};
 
   Place axis;
   Quantity polar_inertia, speed;
@@ -20,10 +19,9 @@ struct SpinningDisc {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.direction("axis", self.axis, "axis of spin, a direction of the body that carries the disc");
-    visit.quantity(
-        {"polar_inertia", "kg m^2", enters_damping, "moment of inertia about the axis", Range::non_negative},
-        self.polar_inertia);
-    visit.quantity({"speed", "rad/s", enters_damping, "speed of spin"}, self.speed);
+    visit.quantity({"polar_inertia", "kg m^2", "moment of inertia about the axis", Range::non_negative},
+                   self.polar_inertia);
+    visit.quantity({"speed", "rad/s", "speed of spin"}, self.speed);
   }
 
   template <class Scalar>

@@ -11,7 +11,6 @@ struct Spring {
   static constexpr std::string_view name = "spring";
   static constexpr std::string_view description = "linear spring between two places";
   static constexpr Contribution contribution{.conservative = true};
-  static constexpr Dependence depends{.position = true};
 
   Place from, to;
   Quantity stiffness, free_length, preload;
@@ -20,11 +19,9 @@ struct Spring {
   static void fields(Self& self, Visitor& visit) {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
-    visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
-    visit.quantity({"free_length", "m", enters_force, "length without force", Range::non_negative},
-                   self.free_length);
-    visit.quantity({"preload", "N", enters_force, "tension at the free length", Range::any, 0.0},
-                   self.preload);
+    visit.quantity({"stiffness", "N/m", "force per elongation"}, self.stiffness);
+    visit.quantity({"free_length", "m", "length without force", Range::non_negative}, self.free_length);
+    visit.quantity({"preload", "N", "tension at the free length", Range::any, 0.0}, self.preload);
   }
 
   template <class Scalar>
@@ -45,7 +42,6 @@ struct GuidedSpring {
   static constexpr std::string_view description =
       "linear spring that keeps its direction, its far end sliding along";
   static constexpr Contribution contribution{.conservative = true};
-  static constexpr Dependence depends{.position = true};
 
   Place point;
   std::array<Quantity, 3> direction;
@@ -54,12 +50,11 @@ struct GuidedSpring {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.point("point", self.point, "the point it acts on");
-    visit.vector({"direction", "", enters_force, "direction of the spring, of any length", Range::positive},
+    visit.vector({"direction", "", "direction of the spring, of any length", Range::positive},
                  self.direction);
-    visit.quantity({"stiffness", "N/m", enters_force, "force per elongation"}, self.stiffness);
-    visit.quantity(
-        {"reference", "m", enters_force, "coordinate along the direction without force", Range::any, 0.0},
-        self.reference);
+    visit.quantity({"stiffness", "N/m", "force per elongation"}, self.stiffness);
+    visit.quantity({"reference", "m", "coordinate along the direction without force", Range::any, 0.0},
+                   self.reference);
   }
 
   template <class Scalar>

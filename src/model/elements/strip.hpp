@@ -18,15 +18,13 @@ struct Strip : AirSection {
       "quasi-steady lift, drag and moment of a beam, blade or body";
   static constexpr Contribution contribution{
       .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
-  static constexpr Dependence depends{.position = true, .velocity = true, .turning = true};
 
   Quantity drag, moment;  ///< coefficients of drag and of the moment about the quarter chord; no slot: 0
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit, enters_damping_and_force);
-    visit.quantity({"drag", "", enters_damping_and_force, ""}, self.drag);
-    visit.quantity({"moment", "", enters_damping_and_force, ""}, self.moment);
+    common_fields(self, visit);
+    visit.numbers(self.drag, self.moment);
   }
 
   template <class Scalar>

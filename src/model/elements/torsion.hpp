@@ -51,7 +51,6 @@ struct TorsionalSpring {
   static constexpr std::string_view name = "torsional_spring";
   static constexpr std::string_view description = "linear spring on the angle of a joint";
   static constexpr Contribution contribution{.conservative = true};
-  static constexpr Dependence depends{.position = true};
 
   HingeAngle angle;
   Quantity stiffness, free_angle, preload;
@@ -59,12 +58,11 @@ struct TorsionalSpring {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.joint("joint", self.angle, "the joint whose angle it acts on");
-    visit.quantity({"stiffness", "N m/rad", enters_force, "moment per angle"}, self.stiffness);
-    visit.quantity({"free_angle", "rad", enters_force, "angle without moment", Range::any, 0.0},
-                   self.free_angle);
-    visit.quantity({"preload", "N m", enters_force, "moment at the free angle that opposes growing angles",
-                    Range::any, 0.0},
-                   self.preload);
+    visit.quantity({"stiffness", "N m/rad", "moment per angle"}, self.stiffness);
+    visit.quantity({"free_angle", "rad", "angle without moment", Range::any, 0.0}, self.free_angle);
+    visit.quantity(
+        {"preload", "N m", "moment at the free angle that opposes growing angles", Range::any, 0.0},
+        self.preload);
   }
 
   template <class Scalar>
@@ -79,7 +77,6 @@ struct TorsionalDamper {
   static constexpr std::string_view name = "torsional_damper";
   static constexpr std::string_view description = "linear damper on the angle of a joint";
   static constexpr Contribution contribution{.dissipative = true};
-  static constexpr Dependence depends{.velocity = true, .turning = true};
 
   HingeAngle angle;
   Quantity coefficient;
@@ -87,8 +84,7 @@ struct TorsionalDamper {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.joint("joint", self.angle, "the joint whose angle it acts on");
-    visit.quantity({"coefficient", "N m s/rad", enters_damping, "moment per rate of the angle"},
-                   self.coefficient);
+    visit.quantity({"coefficient", "N m s/rad", "moment per rate of the angle"}, self.coefficient);
   }
 
   template <class Scalar>

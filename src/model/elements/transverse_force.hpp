@@ -12,7 +12,6 @@ struct TransverseForce {
   static constexpr std::string_view description =
       "lift-and-drag-like force normal to the line hinge-point, growing with it";
   static constexpr Contribution contribution{.circulatory = true};
-  static constexpr Dependence depends{.position = true};
 
   Place point, hinge;
   Quantity tangential, normal;
@@ -21,9 +20,8 @@ struct TransverseForce {
   static void fields(Self& self, Visitor& visit) {
     visit.point("point", self.point, "the point it acts on");
     visit.place("hinge", self.hinge, "where the line begins; the reaction is not applied to it");
-    visit.quantity({"tangential", "N/m", enters_force, "a_t: force along y per distance along x"},
-                   self.tangential);
-    visit.quantity({"normal", "N/m", enters_force, "a_n: force along z per distance along x"}, self.normal);
+    visit.quantity({"tangential", "N/m", "a_t: force along y per distance along x"}, self.tangential);
+    visit.quantity({"normal", "N/m", "a_n: force along z per distance along x"}, self.normal);
   }
 
   template <class Scalar>

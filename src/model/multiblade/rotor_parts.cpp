@@ -34,8 +34,9 @@ class Touched {
   }
   void quantity(const QuantityField&, const Quantity&) {}
   void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
-  template <std::size_t N>
-  void matrix(const QuantityField&, const std::array<Quantity, N>&) {}
+  void matrix(const QuantityField&, const std::array<Quantity, 4>&) {}
+  template <class... Numbers>
+  void numbers(const Numbers&...) {}
 
   void constraint(const Constraint& constraint) {
     for (const ConstraintRow& row : constraint.rows) {
@@ -311,14 +312,17 @@ std::unique_ptr<Model> make_bladed_rotor(Draft& draft, ModelDescription descript
   description.masses = std::move(numbering.masses);
   description.rotor = BladedRotor{draft.rotor->blades, hub, speed, names_of(description.masses, false),
                                   names_of(description.masses, true)};
-  BladedRotorData data{Assembly(std::move(parts.blade)),
-                       Assembly(std::move(parts.support)),
-                       std::move(parts.trims_of_blade),
-                       std::move(parts.trims_of_support),
-                       std::move(numbering.map),
-                       speed,
-                       hub,
-                       draft.guess};
+  MultibladeMap& map = numbering.map;
+  RotorPart blade{Assembly(std::move(parts.blade)), std::move(parts.trims_of_blade), map.n_blades,
+                  map.harmonics};
+  for (std::size_t a = 0; a < map.harmonics.size(); ++a) {
+    blade.coordinates.push_back(map.coordinates(a));
+    blade.multipliers.push_back(selection(map.blade_row, map.n_constraints, a));
+  }
+  RotorPart support{Assembly(std::move(parts.support)), std::move(parts.trims_of_support)};
+  support.coordinates.push_back(selection(map.support, map.n_coordinates));
+  support.multipliers.push_back(selection(map.support_row, map.n_constraints));
+  BladedRotorData data{std::move(blade), std::move(support), std::move(map), speed, hub, draft.guess};
   for (const Effect& effect : description.effects) data.n_states += effect.states;
   for (SpinningAxis& spin : description.spins) {
     for (Eigen::Index* at : {&spin.origin, &spin.director})

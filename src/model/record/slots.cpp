@@ -6,8 +6,8 @@ namespace eigentrail {
 namespace {
 
 /// Calls visit(register) for all operands.
-template <class Visit>
-void for_each_operand(Instruction& instruction, Visit visit) {
+template <class Any, class Visit>
+void for_each_operand(Any& instruction, Visit visit) {
   visit(instruction.a);
   if (instruction.op != Operator::function) visit(instruction.b);
   visit(instruction.c);
@@ -95,6 +95,27 @@ class SlotAssignment {
 
 void assign_slots(Program& program, int n_registers) {
   SlotAssignment(program, n_registers).run();
+}
+
+void Inputs::add(const Inputs& other) {
+  numbers.insert(other.numbers.begin(), other.numbers.end());
+  coordinates = coordinates || other.coordinates;
+}
+
+std::vector<Inputs> inputs_by_slot(const Program& program) {
+  std::vector<Inputs> slots(static_cast<std::size_t>(program.n_slots));
+  const auto at = [&slots](int slot) -> Inputs& { return slots[static_cast<std::size_t>(slot)]; };
+  for (const LocalValue& number : program.numbers) at(number.slot).numbers = {number.index};
+  for (const LocalValue& coordinate : program.coordinates) at(coordinate.slot).coordinates = true;
+  for (const Instruction& instruction : program.instructions) {
+    Inputs inputs;
+    for_each_operand(instruction, [&](int slot) {
+      if (slot >= 0) inputs.add(at(slot));
+    });
+    if (instruction.second >= 0) at(instruction.second) = inputs;
+    at(instruction.out) = std::move(inputs);
+  }
+  return slots;
 }
 
 }  // namespace eigentrail
