@@ -4,16 +4,18 @@ import csv
 import io
 import json
 import math
+import os
 import re
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
 
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
-from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, SCENES, edited
+from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, OTHER_KERNEL, SCENES, edited
 
 
 class Trace(CommandTest):
@@ -209,6 +211,31 @@ class TraceOfAFamily(CommandTest):
         root = np.sqrt(0.25 + places**2)
         self.assert_within(self.eval_at("loci.h5", places), np.column_stack([root - 1.5, -root - 1.5]),
                            DEFAULT_TOLERANCE)
+
+
+class TraceWithOtherRounding(CommandTest):
+    # Coleman's equations of ground resonance (Hammond 1974), undamped: pairs meet on the imaginary axis.
+    SCENE = """[trace]
+parameter = "p"
+from = 40
+to = 5
+tolerance = 1e-4
+order = 3
+first_step = 0.035
+[matrix_family]
+M = [[[800, 0, 0, -65], [0, 800, 65, 0], [0, 130, 576, 0], [-130, 0, 0, 251]]]
+C = [[[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]], [[0, 1600, 0, 0], [-1600, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]]
+K = [[[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 85000, 0], [0, 0, 0, 85000]], [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]],
+     [[-735, 0, 0, 0], [0, -735, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]]
+"""
+
+    def test_collisions_on_the_axis_are_no_flutter_whatever_the_kernel_of_blas(self):
+        self.write("scene.toml", self.SCENE)
+        for kernel in ("Prescott", OTHER_KERNEL, ""):
+            with self.subTest(kernel), unittest.mock.patch.dict(os.environ, OPENBLAS_CORETYPE=kernel):
+                self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force", "--quiet")
+                events = list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
+                self.assertEqual([event["kind"] for event in events], 4 * ["collision"])
 
 
 class TraceThatEndsEarly(CommandTest):

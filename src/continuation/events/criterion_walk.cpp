@@ -145,13 +145,15 @@ double CriterionWalk::rounding_of_mean() const {
 
 /// Whether the walk has reached a double eigenvalue, and what that means.
 CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
-  const bool meets = series.size() < 2 || (!by_product_ && mode_->gap <= meeting_gap * moved_);
+  const bool of_axis = target_.criterion.kind == EventKind::flutter;
+  const bool on_axis = std::abs(mode_->root.real()) <= rounding();
+  // On the axis rounding tells eigenvalues from each other no better than from it.
+  const double coincident = std::max(meeting_gap * moved_, of_axis && on_axis ? rounding() : 0.0);
+  const bool meets = series.size() < 2 || (!by_product_ && mode_->gap <= coincident);
   if (!meets) return Ending::none;
   if (has_product(target_, track())) return Ending::unsettled;
   // A double eigenvalue has no derivatives, so that Newton's method cannot go on.
-  const bool on_axis = std::abs(mode_->root.real()) <= rounding();
-  return target_.criterion.kind == EventKind::flutter && (look > 1 || on_axis) ? Ending::at_meeting
-                                                                               : Ending::passed;
+  return of_axis && (look > 1 || on_axis) ? Ending::at_meeting : Ending::passed;
 }
 
 /// Replaces Newton's move where eigenvalues coincide at the left end of the step and that move would lead
