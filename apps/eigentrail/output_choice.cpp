@@ -16,8 +16,7 @@ void OutputChoice::name_like(const std::string& source, const std::string& endin
                              const std::string& extension) {
   if (given->count() > 0) return;
   path = std::filesystem::path(source).stem().string() + ending;
-  if (part && !extension.empty()) path += "." + part_ending(*part);
-  path += extension;
+  path += part && !extension.empty() ? "." + part_ending(*part) : extension;
 }
 
 CLI::Option* add_output(CLI::App& command, OutputChoice& output, const std::string& help) {

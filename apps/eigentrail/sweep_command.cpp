@@ -146,7 +146,7 @@ int run_sweep(SweepArguments& arguments, Team& team) {
   const auto path = [&](std::size_t number) { return (folder / run_name(number, runs.size())).string(); };
   const OptionTexts options = arguments.overrides();
   OutputChoice list = arguments.output;
-  list.path = (folder / (list.part ? part_ending(*list.part) + ".h5" : "index.csv")).string();
+  list.path = (folder / (list.part ? part_ending(*list.part) : "index.csv")).string();
   SharedJob job = sweep_job(shared_run(scene, arguments, runs), list, team);
   job.jobs = arguments.jobs;
   job.leaves_more_files = true;

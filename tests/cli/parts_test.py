@@ -28,7 +28,7 @@ class Parts(ProgramTest):
 
     def parts(self, command, count, prefix="part"):
         """Computes all parts; returns the names of their files."""
-        names = [f"{prefix}_{i}_of_{count}.h5" for i in range(1, count + 1)]
+        names = [f"{prefix}_{i}_of_{count}" for i in range(1, count + 1)]
         for i, name in enumerate(names, start=1):
             self.run_well(*command, "--part", f"{i}/{count}", "-o", name, "--quiet")
         return names
@@ -65,11 +65,11 @@ class Parts(ProgramTest):
 
     def test_merge_prints_the_summary_and_parts_say_what_is_next(self):
         said = self.run_well(*MAP, "--part", "2/3")
-        self.assertEqual(said, "wrote scene_map.part-2-of-3.h5: part 2 of 3, 2 of 7 pieces; eigentrail merge joins "
+        self.assertEqual(said, "wrote scene_map.part-2-of-3: part 2 of 3, 2 of 7 pieces; eigentrail merge joins "
                                "the parts\n")
         for i in (1, 3):
             self.run_well(*MAP, "--part", f"{i}/3", "--quiet")
-        said = self.run_well("merge", *(f"scene_map.part-{i}-of-3.h5" for i in (1, 2, 3)), "-o", "map.h5")
+        said = self.run_well("merge", *(f"scene_map.part-{i}-of-3" for i in (1, 2, 3)), "-o", "map.h5")
         self.assertIn("7 x 9 cells: drag 0.5 -> 20", said)
         self.assertTrue(said.endswith("wrote map.h5\n"))
 

@@ -115,7 +115,7 @@ class Sweep(CommandTest):
         for count in (2, 4):
             for i in range(1, count + 1):
                 self.run_well(*SWEEP, "-o", f"shared_{count}", "--part", f"{i}/{count}", "--quiet")
-            self.run_well("merge", *(f"shared_{count}/part-{i}-of-{count}.h5" for i in range(1, count + 1)),
+            self.run_well("merge", *(f"shared_{count}/part-{i}-of-{count}" for i in range(1, count + 1)),
                           "-o", f"shared_{count}/index.csv", "--quiet")
             for i in range(1, 10):
                 name = f"run_{i:03}.h5"
@@ -131,8 +131,8 @@ class Sweep(CommandTest):
         time.sleep(0.3)
         run.kill()
         run.wait(timeout=TIME_LIMIT)
-        merge = ("merge", "shared/part-1-of-2.h5", "shared/part-2-of-2.h5", "-o", "shared/index.csv", "--quiet")
-        self.assert_refused(self.run_program(*merge), ["part-2-of-2.h5: no such file"])
+        merge = ("merge", "shared/part-1-of-2", "shared/part-2-of-2", "-o", "shared/index.csv", "--quiet")
+        self.assert_refused(self.run_program(*merge), ["part-2-of-2: no such file"])
         self.run_well(*SWEEP, "-o", "shared", "--part", "2/2", "--quiet", "--force")
         self.run_well(*merge)
         self.assertEqual((self.folder / "shared/index.csv").read_bytes(), (self.folder / "out/index.csv").read_bytes())
