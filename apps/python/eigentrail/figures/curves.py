@@ -128,11 +128,14 @@ def oscillates(s):
         return np.abs(s.imag) > SAME_AS_ZERO * np.abs(s)
 
 
-def with_ends(mask):
-    """The places of a mask (n, ...) and those next to them, so that lines reach the place where a pair becomes real."""
+def with_ends(mask, step):
+    """The places of a mask (n, ...) and the ends of steps (n) next to them, so that lines reach the place where a pair becomes
+    real: a step ends there."""
+    end = np.diff(step, prepend=-1, append=-1) != 0
+    end = (end[:-1] | end[1:])[:, np.newaxis]
     grown = mask.copy()
-    grown[1:] |= mask[:-1]
-    grown[:-1] |= mask[1:]
+    grown[1:] |= mask[:-1] & end[1:]
+    grown[:-1] |= mask[1:] & end[:-1]
     return grown
 
 

@@ -47,7 +47,7 @@ class LociFigure:
         self.s, self.p = self.curves.s, self.curves.parameter
         self.modes = list(np.flatnonzero(np.isfinite(self.s).any(axis=0)))
         self.range = (float(self.p.min()), float(self.p.max()))
-        shown = with_ends(oscillates(self.s)) & np.isfinite(self.s)
+        shown = with_ends(oscillates(self.s), self.curves.step) & np.isfinite(self.s)
         self.frequency = np.where(shown, np.abs(self.s.imag) / self.factor, np.nan)
         self.damping = np.where(shown, damping_percent(self.s), np.nan)
         with np.errstate(divide="ignore"):
