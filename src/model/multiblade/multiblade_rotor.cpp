@@ -82,23 +82,21 @@ class RotorAssembly {
     for (const RotorPart* part : parts()) {
       BasicLinearization<Real> own;
       if (auto fault = part->assembly.linearize(path_of(*part), order_, own, counts)) return fault;
-      const Matrices mass = sparse(own.M), damping = sparse(own.C), stiffness = sparse(own.K);
-      const Matrices constraints = sparse(own.A);
       for (std::size_t a = 0; a < part->harmonics.size(); ++a) {
         const Harmonic& harmonic = part->harmonics[a];
         const Real weight(part->count * harmonic.mean_square);
         const Sparse G = coordinates(*part, a), weighted = weight * G;
-        add(M, one, weighted, mass, G);
-        add(C, one, weighted, damping, G);
-        add(K, one, weighted, stiffness, G);
-        add(A, one, weight * multipliers(*part, a), constraints, G);
+        add(M, one, weighted, own.M, G);
+        add(C, one, weighted, own.C, G);
+        add(K, one, weighted, own.K, G);
+        add(A, one, weight * multipliers(*part, a), own.A, G);
         if (harmonic.partner < 0) continue;
         const auto partner = static_cast<std::size_t>(harmonic.partner);
         const Sparse DG = Real(part->harmonics[partner].slope) * coordinates(*part, partner);
         const Sparse D2G = Real(-harmonic.number * harmonic.number) * G;
-        add(C, twice, weighted, mass, DG);
-        add(K, speed_, weighted, damping, DG);
-        add(K, squared, weighted, mass, D2G);
+        add(C, twice, weighted, own.M, DG);
+        add(K, speed_, weighted, own.C, DG);
+        add(K, squared, weighted, own.M, D2G);
       }
     }
     result = {M.take(), C.take(), K.take(), A.take()};
@@ -130,7 +128,6 @@ class RotorAssembly {
   using Coefficients = typename BasicLinearization<Real>::Coefficients;
   using Sparse = typename BasicSystemMatrix<Real>::Sparse;
   using Sum = SeriesSum<Sparse, max_order>;
-  using Matrices = std::vector<Sparse>;
 
   std::array<const RotorPart*, 2> parts() const { return {&data_.support, &data_.blade}; }
 
@@ -170,21 +167,15 @@ class RotorAssembly {
     return own;
   }
 
-  static Matrices sparse(const Coefficients& list) {
-    Matrices result;
-    for (const auto& one : list)
-      result.push_back(one.is_sparse() ? one.sparse() : Sparse(one.dense().sparseView()));
-    return result;
-  }
-
   /// Adds factor (left^T B right).
-  void add(Sum& sum, const LongSeries& factor, const Sparse& left, const Matrices& B,
+  void add(Sum& sum, const LongSeries& factor, const Sparse& left, const Coefficients& B,
            const Sparse& right) const {
     for (std::size_t k = 0; k < B.size(); ++k) {
+      const Sparse inner = B[k].is_sparse() ? B[k].sparse() : Sparse(B[k].dense().sparseView());
       LongSeries later(0.0);
       for (std::size_t l = k; l <= static_cast<std::size_t>(order_); ++l)
         later[static_cast<int>(l)] = factor[static_cast<int>(l - k)];
-      sum.add(later, Sparse(left.transpose() * B[k] * right));
+      sum.add(later, Sparse(left.transpose() * inner * right));
     }
   }
 
