@@ -52,42 +52,31 @@ std::vector<TurnEntry> entries(Turn turn) {
 
 }  // namespace
 
-SparseMatrix selection(const std::vector<int>& at, int columns, std::size_t harmonic,
-                       const std::vector<int>& stride) {
-  SparseMatrix result(static_cast<Eigen::Index>(at.size()), columns);
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const int distance = stride.empty() ? 1 : stride[i];
-    if (at[i] >= 0)
-      result.insert(static_cast<Eigen::Index>(i), at[i] + static_cast<int>(harmonic) * distance) = 1.0;
+std::vector<std::vector<RotorShare>> MultibladeMap::shares(std::size_t harmonic) const {
+  std::vector<std::vector<RotorShare>> result(blade.size());
+  for (std::size_t i = 0; i < blade.size(); ++i) {
+    if (blade[i] >= 0) result[i] = {{blade[i] + static_cast<int>(harmonic) * stride[i], 1.0}};
   }
-  result.makeCompressed();
-  return result;
-}
-
-SparseMatrix MultibladeMap::coordinates(std::size_t harmonic) const {
-  SparseMatrix result = selection(blade, n_coordinates, harmonic, stride);
-  const auto add = [&](int seen, int own, double weight) {
-    result.coeffRef(seen, support[static_cast<std::size_t>(own)]) += weight;
-  };
   for (const HubTurn& part : hub_turns) {
     if (part.harmonic != harmonic) continue;
-    for (const TurnEntry& entry : entries(part.turn))
-      add(hub_coordinate + 3 * part.seen + entry.row, hub_coordinate + 3 * part.own + entry.column,
-          part.factor * entry.value);
+    for (const TurnEntry& entry : entries(part.turn)) {
+      const auto seen = static_cast<std::size_t>(hub_coordinate + 3 * part.seen + entry.row);
+      const auto own = static_cast<std::size_t>(hub_coordinate + 3 * part.own + entry.column);
+      result[seen].push_back({support[own], part.factor * entry.value});
+    }
   }
   for (const InflowCoordinates& inflow : inflows) {
-    const int mean = inflow.first, x = mean + 1, y = mean + 2;
-    if (harmonic == 0) add(mean, mean, 1.0);
+    const auto mean = static_cast<std::size_t>(inflow.first), x = mean + 1, y = mean + 2;
+    if (harmonic == 0) result[mean] = {{support[mean], 1.0}};
     if (harmonic == 1) {
-      add(x, x, 1.0);
-      add(y, y, 1.0);
+      result[x] = {{support[x], 1.0}};
+      result[y] = {{support[y], 1.0}};
     }
     if (harmonic == 2) {
-      add(x, y, inflow.sense);
-      add(y, x, -inflow.sense);
+      result[x] = {{support[y], static_cast<double>(inflow.sense)}};
+      result[y] = {{support[x], -static_cast<double>(inflow.sense)}};
     }
   }
-  result.makeCompressed();
   return result;
 }
 

@@ -24,10 +24,15 @@
 
 #include <vector>
 
-#include "eigentrail/core/types.hpp"
 #include "model/multiblade/harmonics.hpp"
 
 namespace eigentrail {
+
+/// A coordinate of the rotor and its weight.
+struct RotorShare {
+  int coordinate = 0;
+  double weight = 1.0;
+};
 
 /// Velocity of an inflow: its first coordinate among those of the scene, and the sense in which its axes x, y
 /// turn about the axis of rotation.
@@ -51,13 +56,8 @@ struct MultibladeMap {
   int hub_coordinate = 0;      ///< of the scene: the first one of the hub's twelve
   std::vector<InflowCoordinates> inflows = {};
 
-  /// G_a of a blade.
-  SparseMatrix coordinates(std::size_t harmonic) const;
+  /// G_a: the entries in the row of each coordinate of the scene.
+  std::vector<std::vector<RotorShare>> shares(std::size_t harmonic) const;
 };
-
-/// The matrix with a one in row i and column at[i] + stride[i] times `harmonic`, unless at[i] < 0. Without
-/// strides they are one.
-SparseMatrix selection(const std::vector<int>& at, int columns, std::size_t harmonic = 0,
-                       const std::vector<int>& stride = {});
 
 }  // namespace eigentrail

@@ -1,11 +1,10 @@
 #include "model/multiblade/multiblade_rotor.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "model/multiblade/matrix_sums.hpp"
 #include "model/multibody.hpp"
-#include "model/series_sum.hpp"
 
 namespace eigentrail {
 namespace {
@@ -14,6 +13,29 @@ namespace {
 /// as being on the axis.
 constexpr double still_on_axis = 1e-9;
 
+using SharesByHarmonic = std::vector<std::vector<std::vector<RotorShare>>>;
+
+/// Calls visit(row, column, value) for every entry that is not zero.
+template <class Real, class Visit>
+void for_each_entry(const BasicSystemMatrix<Real>& B, Visit visit) {
+  if (B.is_sparse()) {
+    const auto& values = B.sparse();
+    for (Eigen::Index j = 0; j < values.outerSize(); ++j) {
+      for (typename BasicSystemMatrix<Real>::Sparse::InnerIterator entry(values, j); entry; ++entry)
+        visit(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(entry.col()), entry.value());
+    }
+    return;
+  }
+  B.visit([&](const auto& values) {
+    for (Eigen::Index j = 0; j < values.cols(); ++j) {
+      for (Eigen::Index i = 0; i < values.rows(); ++i) {
+        const Real value = values.coeff(i, j);
+        if (value != Real(0.0)) visit(static_cast<std::size_t>(i), static_cast<std::size_t>(j), value);
+      }
+    }
+  });
+}
+
 /// The rotor at a path, as series up to h^order.
 template <class Real>
 class RotorAssembly {
@@ -21,9 +43,11 @@ class RotorAssembly {
   using Columns = typename BasicPath<Real>::Columns;
   using LongSeries = Series<Real, max_order>;
 
-  RotorAssembly(const BladedRotorData& data, const BasicPath<Real>& path, int order)
+  RotorAssembly(const BladedRotorData& data, const SharesByHarmonic& shares, const BasicPath<Real>& path,
+                int order)
       : data_(data),
         map_(data.map),
+        shares_(shares),
         path_(path),
         order_(order),
         parameters_(parameters_of(data, path, order)) {
@@ -31,7 +55,7 @@ class RotorAssembly {
     for (Eigen::Index i = 0; i < parameters_.rows(); ++i) {
       for (int k = 0; k <= order; ++k) values[static_cast<std::size_t>(i)][k] = parameters_(i, k);
     }
-    data.blade.assembly.data().parameters.to_si(std::span<LongSeries>(values));
+    data.blade.data().parameters.to_si(std::span<LongSeries>(values));
     speed_ = data.speed.evaluate(std::span<const LongSeries>(values));
   }
 
@@ -59,52 +83,39 @@ class RotorAssembly {
     if (EvaluationFault fault = check_axis()) return fault;
     result.force = Columns::Zero(map_.n_coordinates, order_ + 1);
     result.constraint = Columns::Zero(path_.lambda.rows(), order_ + 1);
-    for (const RotorPart* part : parts()) {
-      BasicSteadyResidual<Real> own;
-      if (auto fault = part->assembly.residual(path_of(*part), order_, own, counts)) return fault;
-      const Real n(part->count);
-      result.force += n * (coordinates(*part).transpose() * own.force);
-      const Eigen::Index first = own.constraint.rows() - row_of(part->trims.size());
-      result.constraint.topRows(map_.n_constraints) +=
-          n * (multipliers(*part).transpose() * own.constraint.topRows(first));
-      // The conditions of a part, the last rows of its constraints.
-      for (std::size_t i = 0; i < part->trims.size(); ++i)
-        result.constraint.row(map_.n_constraints + part->trims[i]) = own.constraint.row(first + row_of(i));
+    BasicSteadyResidual<Real> part;
+    if (auto fault = data_.support.residual(support_path(), order_, part, counts)) return fault;
+    for (std::size_t i = 0; i < map_.support.size(); ++i) {
+      if (map_.support[i] >= 0) result.force.row(map_.support[i]) += part.force.row(row_of(i));
     }
+    for (std::size_t i = 0; i < map_.support_row.size(); ++i) {
+      if (map_.support_row[i] >= 0)
+        result.constraint.row(map_.support_row[i]) = part.constraint.row(row_of(i));
+    }
+    add_conditions(data_.trims_of_support, part.constraint, result.constraint);
+    if (auto fault = data_.blade.residual(blade_path(), order_, part, counts)) return fault;
+    const Real n(map_.n_blades);
+    for (std::size_t i = 0; i < map_.blade.size(); ++i) {
+      for (const RotorShare& share : shares_[0][i])
+        result.force.row(share.coordinate) += n * Real(share.weight) * part.force.row(row_of(i));
+    }
+    for (std::size_t i = 0; i < map_.blade_row.size(); ++i) {
+      if (map_.blade_row[i] >= 0)
+        result.constraint.row(map_.blade_row[i]) = n * part.constraint.row(row_of(i));
+    }
+    add_conditions(data_.trims_of_blade, part.constraint, result.constraint);
     return {};
   }
 
   EvaluationFault linearize(BasicLinearization<Real>& result, EvaluationCounts& counts) const {
     if (EvaluationFault fault = check_axis()) return fault;
-    const Eigen::Index n = map_.n_coordinates;
-    Sum M(n, n, order_), C(n, n, order_), K(n, n, order_), A(map_.n_constraints, n, order_);
-    const LongSeries one(1.0), twice = 2.0 * speed_, squared = speed_ * speed_;
-    for (const RotorPart* part : parts()) {
-      BasicLinearization<Real> own;
-      if (auto fault = part->assembly.linearize(path_of(*part), order_, own, counts)) return fault;
-      for (std::size_t a = 0; a < part->harmonics.size(); ++a) {
-        const Harmonic& harmonic = part->harmonics[a];
-        const Real weight(part->count * harmonic.mean_square);
-        const Sparse G = coordinates(*part, a), weighted = weight * G;
-        add(M, one, weighted, own.M, G);
-        add(C, one, weighted, own.C, G);
-        add(K, one, weighted, own.K, G);
-        add(A, one, weight * multipliers(*part, a), own.A, G);
-        if (harmonic.partner < 0) continue;
-        const auto partner = static_cast<std::size_t>(harmonic.partner);
-        const Sparse DG = Real(part->harmonics[partner].slope) * coordinates(*part, partner);
-        const Sparse D2G = Real(-harmonic.number * harmonic.number) * G;
-        add(C, twice, weighted, own.M, DG);
-        add(K, speed_, weighted, own.C, DG);
-        add(K, squared, weighted, own.M, D2G);
-      }
-    }
-    result = {M.take(), C.take(), K.take(), A.take()};
-    for (auto* list : {&result.M, &result.C, &result.K, &result.A}) {
-      for (auto& one_of_list : *list) {
-        if (n < sparse_from) one_of_list = one_of_list.dense();
-      }
-    }
+    LinearizationSums<Real> sum(map_.n_coordinates, map_.n_constraints, order_);
+    BasicLinearization<Real> part;
+    if (auto fault = data_.support.linearize(support_path(), order_, part, counts)) return fault;
+    add_support(part, sum);
+    if (auto fault = data_.blade.linearize(blade_path(), order_, part, counts)) return fault;
+    add_blades(part, sum);
+    result = sum.take();
     return {};
   }
 
@@ -112,13 +123,27 @@ class RotorAssembly {
   EvaluationFault trim_rows(TrimDerivatives& result, EvaluationCounts& counts) const {
     result.x = Matrix::Zero(n_trims(), map_.n_coordinates);
     result.lambda = Matrix::Zero(n_trims(), map_.n_constraints);
-    for (const RotorPart* part : parts()) {
-      TrimDerivatives own;
-      if (auto fault = part->assembly.trim_rows(path_of(*part), own, counts)) return fault;
-      const Matrix x = own.x * part->coordinates[0], lambda = own.lambda * part->multipliers[0];
-      for (std::size_t j = 0; j < part->trims.size(); ++j) {
-        result.x.row(part->trims[j]) = x.row(row_of(j));
-        result.lambda.row(part->trims[j]) = lambda.row(row_of(j));
+    TrimDerivatives part;
+    if (auto fault = data_.support.trim_rows(support_path(), part, counts)) return fault;
+    for (std::size_t j = 0; j < data_.trims_of_support.size(); ++j) {
+      const Eigen::Index row = data_.trims_of_support[j];
+      for (std::size_t i = 0; i < map_.support.size(); ++i) {
+        if (map_.support[i] >= 0) result.x(row, map_.support[i]) = part.x(row_of(j), row_of(i));
+      }
+      for (std::size_t i = 0; i < map_.support_row.size(); ++i) {
+        if (map_.support_row[i] >= 0)
+          result.lambda(row, map_.support_row[i]) = part.lambda(row_of(j), row_of(i));
+      }
+    }
+    if (auto fault = data_.blade.trim_rows(blade_path(), part, counts)) return fault;
+    for (std::size_t j = 0; j < data_.trims_of_blade.size(); ++j) {
+      const Eigen::Index row = data_.trims_of_blade[j];
+      for (std::size_t i = 0; i < map_.blade.size(); ++i) {
+        for (const RotorShare& share : shares_[0][i])
+          result.x(row, share.coordinate) += share.weight * part.x(row_of(j), row_of(i));
+      }
+      for (std::size_t i = 0; i < map_.blade_row.size(); ++i) {
+        if (map_.blade_row[i] >= 0) result.lambda(row, map_.blade_row[i]) = part.lambda(row_of(j), row_of(i));
       }
     }
     return {};
@@ -126,27 +151,17 @@ class RotorAssembly {
 
  private:
   using Coefficients = typename BasicLinearization<Real>::Coefficients;
-  using Sparse = typename BasicSystemMatrix<Real>::Sparse;
-  using Sum = SeriesSum<Sparse, max_order>;
-
-  std::array<const RotorPart*, 2> parts() const { return {&data_.support, &data_.blade}; }
-
-  static Sparse coordinates(const RotorPart& part, std::size_t harmonic = 0) {
-    return part.coordinates[harmonic].template cast<Real>();
-  }
-  static Sparse multipliers(const RotorPart& part, std::size_t harmonic = 0) {
-    return part.multipliers[harmonic].template cast<Real>();
-  }
 
   /// The parameters along the path, with the trimmed ones in their places.
   static Columns parameters_of(const BladedRotorData& data, const BasicPath<Real>& path, int order) {
     Columns all = Columns::Zero(path.parameters.rows(), order + 1);
     for (int k = 0; k <= order; ++k) {
       for (Eigen::Index i = 0; i < all.rows(); ++i) all(i, k) = coefficient(path.parameters, i, k);
-      for (const RotorPart* part : {&data.blade, &data.support}) {
-        for (std::size_t i = 0; i < part->trims.size(); ++i)
-          all(part->assembly.data().trims[i].parameter, k) =
-              coefficient(path.lambda, data.map.n_constraints + part->trims[i], k);
+      for (auto [part, rows] :
+           {std::pair(&data.blade, &data.trims_of_blade), std::pair(&data.support, &data.trims_of_support)}) {
+        for (std::size_t i = 0; i < rows->size(); ++i)
+          all(part->data().trims[i].parameter, k) =
+              coefficient(path.lambda, data.map.n_constraints + (*rows)[i], k);
       }
     }
     return all;
@@ -154,33 +169,119 @@ class RotorAssembly {
 
   Eigen::Index n_trims() const { return path_.lambda.rows() - map_.n_constraints; }
 
-  static Eigen::Index row_of(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-  /// The support, or one blade and the hub as it sees it, in the steady state.
-  BasicPath<Real> path_of(const RotorPart& part) const {
-    const Columns lambda = multipliers(part) * path_.lambda.topRows(map_.n_constraints);
-    BasicPath<Real> own{parameters_, coordinates(part) * path_.x,
-                        Columns::Zero(lambda.rows() + row_of(part.trims.size()), lambda.cols())};
-    own.lambda.topRows(lambda.rows()) = lambda;
-    for (std::size_t i = 0; i < part.trims.size(); ++i)
-      own.lambda.row(lambda.rows() + row_of(i)) = path_.lambda.row(map_.n_constraints + part.trims[i]);
-    return own;
+  /// Puts the conditions of a part, the last rows of its constraints, in their places among the rotor's.
+  void add_conditions(const std::vector<int>& trims, const Columns& part, Columns& constraint) const {
+    const Eigen::Index first = part.rows() - row_of(trims.size());
+    for (std::size_t i = 0; i < trims.size(); ++i)
+      constraint.row(map_.n_constraints + trims[i]) = part.row(first + row_of(i));
   }
 
-  /// Adds factor (left^T B right).
-  void add(Sum& sum, const LongSeries& factor, const Sparse& left, const Coefficients& B,
-           const Sparse& right) const {
-    for (std::size_t k = 0; k < B.size(); ++k) {
-      const Sparse inner = B[k].is_sparse() ? B[k].sparse() : Sparse(B[k].dense().sparseView());
-      LongSeries later(0.0);
-      for (std::size_t l = k; l <= static_cast<std::size_t>(order_); ++l)
-        later[static_cast<int>(l)] = factor[static_cast<int>(l - k)];
-      sum.add(later, Sparse(left.transpose() * inner * right));
+  static Eigen::Index row_of(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+  /// The path of a part with these trims; coordinates and multipliers are zero.
+  BasicPath<Real> empty_path(const std::vector<int>& trims) const {
+    const Eigen::Index n = row_of(map_.support.size());
+    const Eigen::Index m = row_of(map_.support_row.size());
+    BasicPath<Real> part{parameters_, Columns::Zero(n, path_.x.cols()),
+                         Columns::Zero(m + row_of(trims.size()), path_.lambda.cols())};
+    for (std::size_t i = 0; i < trims.size(); ++i)
+      part.lambda.row(m + row_of(i)) = path_.lambda.row(map_.n_constraints + trims[i]);
+    return part;
+  }
+
+  BasicPath<Real> support_path() const {
+    BasicPath<Real> part = empty_path(data_.trims_of_support);
+    for (std::size_t i = 0; i < map_.support.size(); ++i) {
+      if (map_.support[i] >= 0) part.x.row(row_of(i)) = path_.x.row(map_.support[i]);
+    }
+    for (std::size_t i = 0; i < map_.support_row.size(); ++i) {
+      if (map_.support_row[i] >= 0) part.lambda.row(row_of(i)) = path_.lambda.row(map_.support_row[i]);
+    }
+    return part;
+  }
+
+  /// One blade, and the hub as it sees it, in the steady state.
+  BasicPath<Real> blade_path() const {
+    BasicPath<Real> part = empty_path(data_.trims_of_blade);
+    for (std::size_t i = 0; i < map_.blade.size(); ++i) {
+      for (const RotorShare& share : shares_[0][i])
+        part.x.row(row_of(i)) += Real(share.weight) * path_.x.row(share.coordinate);
+    }
+    for (std::size_t i = 0; i < map_.blade_row.size(); ++i) {
+      if (map_.blade_row[i] >= 0) part.lambda.row(row_of(i)) = path_.lambda.row(map_.blade_row[i]);
+    }
+    return part;
+  }
+
+  void add_support(const BasicLinearization<Real>& part, LinearizationSums<Real>& sum) const {
+    for (const auto& [from, to] :
+         {std::pair(&part.M, &sum.M), std::pair(&part.C, &sum.C), std::pair(&part.K, &sum.K)}) {
+      for (std::size_t k = 0; k < from->size(); ++k) {
+        for_each_entry((*from)[k], [&, to = to](std::size_t i, std::size_t j, const Real& value) {
+          to->add(k, map_.support[i], map_.support[j], value);
+        });
+      }
+    }
+    for (std::size_t k = 0; k < part.A.size(); ++k) {
+      for_each_entry(part.A[k], [&](std::size_t i, std::size_t j, const Real& value) {
+        sum.A.add(k, map_.support_row[i], map_.support[j], value);
+      });
+    }
+  }
+
+  void add_blades(const BasicLinearization<Real>& blade, LinearizationSums<Real>& sum) const {
+    const LongSeries one(1.0), twice = 2.0 * speed_, squared = speed_ * speed_;
+    fold(blade.M, one, 0, sum.M);
+    fold(blade.C, one, 0, sum.C);
+    fold(blade.M, twice, 1, sum.C);
+    fold(blade.K, one, 0, sum.K);
+    fold(blade.C, speed_, 1, sum.K);
+    fold(blade.M, squared, 2, sum.K);
+    for (std::size_t a = 0; a < map_.harmonics.size(); ++a) {
+      const Real weight(map_.n_blades * map_.harmonics[a].mean_square);
+      for (std::size_t k = 0; k < blade.A.size(); ++k) {
+        for_each_entry(blade.A[k], [&](std::size_t i, std::size_t j, const Real& value) {
+          for (const RotorShare& share : shares_[a][j])
+            sum.A.add(k, map_.blade_row[i] + static_cast<int>(a), share.coordinate,
+                      weight * Real(share.weight) * value);
+        });
+      }
+    }
+  }
+
+  /// Adds N sum_a w_a G_a^T (factor B) (D^d G)_a, d = `derivative`.
+  void fold(const Coefficients& B, const LongSeries& factor, int derivative, MatrixSum<Real>& sum) const {
+    for (std::size_t a = 0; a < map_.harmonics.size(); ++a) {
+      const Harmonic& harmonic = map_.harmonics[a];
+      if (derivative > 0 && harmonic.partner < 0) continue;
+      std::size_t columns = a;
+      double scale = map_.n_blades * harmonic.mean_square;
+      if (derivative == 1) {
+        columns = static_cast<std::size_t>(harmonic.partner);
+        scale *= map_.harmonics[columns].slope;
+      } else if (derivative == 2) {
+        scale *= -harmonic.number * harmonic.number;
+      }
+      for (std::size_t k = 0; k < B.size(); ++k) {
+        for_each_entry(B[k], [&](std::size_t i, std::size_t j, const Real& value) {
+          for (const RotorShare& row : shares_[a][i]) {
+            for (const RotorShare& column : shares_[columns][j]) {
+              const Real entry = Real(scale * row.weight * column.weight) * value;
+              for (int l = 0; static_cast<int>(k) + l <= order_; ++l) {
+                if (factor[l] != Real(0.0))
+                  sum.add(k + static_cast<std::size_t>(l), row.coordinate, column.coordinate,
+                          factor[l] * entry);
+              }
+            }
+          }
+        });
+      }
     }
   }
 
   const BladedRotorData& data_;
   const MultibladeMap& map_;
+  const SharesByHarmonic& shares_;
   const BasicPath<Real>& path_;
   int order_;
   Columns parameters_;  ///< with trimmed parameters
@@ -190,14 +291,14 @@ class RotorAssembly {
 }  // namespace
 
 MultibladeRotor::MultibladeRotor(ModelDescription description, BladedRotorData data)
-    : Model(with_costs(std::move(description),
-                       {&data.blade.assembly.equations(), &data.support.assembly.equations()})),
-      data_(std::move(data)) {}
+    : Model(with_costs(std::move(description), {&data.blade.equations(), &data.support.equations()})),
+      data_(std::move(data)) {
+  for (std::size_t a = 0; a < data_.map.harmonics.size(); ++a) shares_.push_back(data_.map.shares(a));
+}
 
 Vector MultibladeRotor::initial_guess(const Vector& parameters) const {
   Vector si = parameters;
-  data_.blade.assembly.data().parameters.to_si(
-      std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
+  data_.blade.data().parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
   const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
   Vector x = Vector::Zero(n_coordinates());
   for (std::size_t i = 0; i < data_.guess.size(); ++i) {
@@ -210,14 +311,14 @@ Vector MultibladeRotor::initial_guess(const Vector& parameters) const {
 
 Structure MultibladeRotor::structure(int traced_parameter) const {
   const std::vector<int> moving = moving_parameters(description(), traced_parameter);
-  const Parameters& parameters = data_.blade.assembly.data().parameters;
+  const Parameters& parameters = data_.blade.data().parameters;
   const bool same_speed = std::none_of(moving.begin(), moving.end(), [&](int parameter) {
     return parameters.depends_on(data_.speed, parameter);
   });
-  Structure result = structure_of({&data_.blade.assembly, &data_.support.assembly}, moving);
+  Structure result = structure_of({&data_.blade, &data_.support}, moving);
   result.gyroscopic = true;
   // The damping of blades acts in the turning frame: Omega C (DG) is unsymmetric.
-  result.circulatory = result.circulatory || structure_of({&data_.blade.assembly}, moving).damped;
+  result.circulatory = result.circulatory || structure_of({&data_.blade}, moving).damped;
   result.constant_damping = result.constant_damping && result.constant_mass && same_speed;
   result.constant_stiffness = result.constant_stiffness && result.constant_damping;
   return result;
@@ -225,34 +326,34 @@ Structure MultibladeRotor::structure(int traced_parameter) const {
 
 EvaluationFault MultibladeRotor::residual(const Path& path, int order, SteadyResidual& result,
                                           EvaluationCounts& counts) const {
-  return RotorAssembly<double>(data_, path, order).residual(result, counts);
+  return RotorAssembly<double>(data_, shares_, path, order).residual(result, counts);
 }
 
 EvaluationFault MultibladeRotor::linearize(const Path& path, int order, Linearization& result,
                                            EvaluationCounts& counts) const {
-  return RotorAssembly<double>(data_, path, order).linearize(result, counts);
+  return RotorAssembly<double>(data_, shares_, path, order).linearize(result, counts);
 }
 
 EvaluationFault MultibladeRotor::trim_derivatives(const Path& at, TrimDerivatives& result,
                                                   EvaluationCounts& counts) const {
   if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
-  return RotorAssembly<double>(data_, at, 0).trim_rows(result, counts);
+  return RotorAssembly<double>(data_, shares_, at, 0).trim_rows(result, counts);
 }
 
 std::vector<Expression> MultibladeRotor::expressions() const {
-  return varying(data_.blade.assembly.data().quantities);
+  return varying(data_.blade.data().quantities);
 }
 
 EvaluationFault MultibladeRotor::extended_residual(const BasicPath<Extended>& path,
                                                    BasicSteadyResidual<Extended>& result) const {
   EvaluationCounts counts = new_counts();
-  return RotorAssembly<Extended>(data_, path, 0).residual(result, counts);
+  return RotorAssembly<Extended>(data_, shares_, path, 0).residual(result, counts);
 }
 
 EvaluationFault MultibladeRotor::extended_linearization(const BasicPath<Extended>& path,
                                                         BasicLinearization<Extended>& result) const {
   EvaluationCounts counts = new_counts();
-  return RotorAssembly<Extended>(data_, path, 0).linearize(result, counts);
+  return RotorAssembly<Extended>(data_, shares_, path, 0).linearize(result, counts);
 }
 
 }  // namespace eigentrail

@@ -10,10 +10,9 @@
 //   K_w = N sum_a w_a G_a^T (K G_a + Omega C (DG)_a + Omega^2 M (D^2 G)_a)
 //
 // and rows N w_a A G_a for every harmonic a, so that the multipliers are those of one blade. The support is
-// a part of which there is one, with the function 1 only. Conditions of a trim are evaluated on one
-// blade or on the support, each over its own coordinates and multipliers, which are the collective ones.
-// Nothing is averaged: the coefficients are constant for N >= 3 as long as the hub stays on the axis of
-// rotation, which is checked.
+// added. Conditions of a trim are evaluated on one blade or on the support, each over its own coordinates and
+// multipliers, which are the collective ones. Nothing is averaged: the coefficients are constant for N >= 3
+// as long as the hub stays on the axis of rotation, which is checked.
 #pragma once
 
 #include "model/assembly.hpp"
@@ -21,18 +20,11 @@
 
 namespace eigentrail {
 
-/// One blade, which stands for all of them, or the support.
-struct RotorPart {
-  Assembly assembly;       ///< elements and constraints, over the coordinates of the scene
-  std::vector<int> trims;  ///< for every condition of a trim: its index among those of the rotor
-  int count = 1;           ///< how many of them there are
-  std::vector<Harmonic> harmonics = {Harmonic{}};
-  /// By harmonic: G_a, and the like for the multipliers of constraints.
-  std::vector<SparseMatrix> coordinates = {}, multipliers = {};
-};
-
 struct BladedRotorData {
-  RotorPart blade, support;
+  /// Elements and constraints of one blade and of the support, both over the coordinates of the scene.
+  Assembly blade, support;
+  /// For every condition of the blade and of the support: its index among those of the rotor.
+  std::vector<int> trims_of_blade, trims_of_support;
   MultibladeMap map;
   Expression speed;               ///< Omega, rad/s
   std::string hub;                ///< its name, for messages
@@ -62,6 +54,7 @@ class MultibladeRotor final : public Model {
 
  private:
   BladedRotorData data_;
+  std::vector<std::vector<std::vector<RotorShare>>> shares_;  ///< G_a by harmonic
 };
 
 }  // namespace eigentrail

@@ -312,17 +312,14 @@ std::unique_ptr<Model> make_bladed_rotor(Draft& draft, ModelDescription descript
   description.masses = std::move(numbering.masses);
   description.rotor = BladedRotor{draft.rotor->blades, hub, speed, names_of(description.masses, false),
                                   names_of(description.masses, true)};
-  MultibladeMap& map = numbering.map;
-  RotorPart blade{Assembly(std::move(parts.blade)), std::move(parts.trims_of_blade), map.n_blades,
-                  map.harmonics};
-  for (std::size_t a = 0; a < map.harmonics.size(); ++a) {
-    blade.coordinates.push_back(map.coordinates(a));
-    blade.multipliers.push_back(selection(map.blade_row, map.n_constraints, a));
-  }
-  RotorPart support{Assembly(std::move(parts.support)), std::move(parts.trims_of_support)};
-  support.coordinates.push_back(selection(map.support, map.n_coordinates));
-  support.multipliers.push_back(selection(map.support_row, map.n_constraints));
-  BladedRotorData data{std::move(blade), std::move(support), std::move(map), speed, hub, draft.guess};
+  BladedRotorData data{Assembly(std::move(parts.blade)),
+                       Assembly(std::move(parts.support)),
+                       std::move(parts.trims_of_blade),
+                       std::move(parts.trims_of_support),
+                       std::move(numbering.map),
+                       speed,
+                       hub,
+                       draft.guess};
   for (const Effect& effect : description.effects) data.n_states += effect.states;
   for (SpinningAxis& spin : description.spins) {
     for (Eigen::Index* at : {&spin.origin, &spin.director})
