@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/thin_product.hpp"
-#include "modes/series_equations.hpp"
+#include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {
@@ -27,34 +27,35 @@ void times_blocks(const PairSet& pairs, const ComplexMatrix& Lambda, ComplexMatr
   }
 }
 
-}  // namespace
-
 ComplexMatrix with_blocks(const PairSet& pairs, ComplexMatrix Z, const ComplexMatrix& Lambda) {
   times_blocks(pairs, Lambda, Z);
   return Z;
 }
 
+}  // namespace
+
 ComplexMatrix residual(const Matrix& M, const Matrix& C, const Matrix& K, const PairSet& pairs) {
   ComplexMatrix slope = ComplexMatrix::Zero(pairs.Z.rows(), pairs.Z.cols());
-  if (!M.isZero(0.0)) slope = with_blocks(pairs, multiply(M, pairs.Z), pairs.Lambda);
-  if (!C.isZero(0.0)) slope += multiply(C, pairs.Z);
+  if (!M.isZero(0.0)) slope = with_blocks(pairs, multiply_many(M, pairs.Z), pairs.Lambda);
+  if (!C.isZero(0.0)) slope += multiply_many(C, pairs.Z);
   times_blocks(pairs, pairs.Lambda, slope);
-  return slope + multiply(K, pairs.Z);
+  return slope + multiply_many(K, pairs.Z);
 }
 
 ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs) {
   return residual(pencil.M, pencil.C, pencil.K, pairs);
 }
 
-void make_real(const PairSet& pairs, ComplexMatrix& Z, ComplexMatrix& Lambda) {
-  for (const PairSet::Place& place : pairs.places) {
-    if (!place.is_real) continue;
-    Z.middleCols(place.first, place.size).imag().setZero();
-    Lambda.middleCols(place.first, place.size).imag().setZero();
-  }
-}
-
 namespace {
+
+/// Products of the blocks of A and B, pair by pair.
+ComplexMatrix multiply_blocks(const PairSet& pairs, const ComplexMatrix& A, const ComplexMatrix& B) {
+  ComplexMatrix product = ComplexMatrix::Zero(A.rows(), A.cols());
+  for (const PairSet::Place& place : pairs.places) {
+    product.block(0, place.first, place.size, place.size) = pairs.block(A, place) * pairs.block(B, place);
+  }
+  return product;
+}
 
 /// I - (W0^H Z + W1^H Z Lambda), pair by pair.
 ComplexMatrix normalization_defect(const PairSet& pairs) {
@@ -70,6 +71,14 @@ ComplexMatrix normalization_defect(const PairSet& pairs) {
       block -= thin_product(thin_product(W.bottomRows(n).adjoint(), Z), pairs.block(pairs.Lambda, place));
   }
   return defect;
+}
+
+void make_real(const PairSet& pairs, ComplexMatrix& Z, ComplexMatrix& Lambda) {
+  for (const PairSet::Place& place : pairs.places) {
+    if (!place.is_real) continue;
+    Z.middleCols(place.first, place.size).imag().setZero();
+    Lambda.middleCols(place.first, place.size).imag().setZero();
+  }
 }
 
 PairSet side_by_side(const std::vector<InvariantPair>& starts, double reference) {
@@ -202,22 +211,151 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
   return std::make_shared<const AllPairs>(AllPairs{std::move(pairs), std::move(*basis)});
 }
 
+namespace {
+
+/// Coefficients of products of the series of all pairs, filled order by order; as ModeEquations for a single
+/// mode.
+class AllEquations {
+ public:
+  std::vector<ComplexMatrix> Z, Lambda;
+
+  AllEquations(const ReducedPencil& pencil, const PairSet& pairs, int order)
+      : pencil_(pencil), pairs_(pairs), undamped_(are_zero(pencil.C)), massless_(are_zero(pencil.M)) {
+    const auto count = static_cast<std::size_t>(order) + 1;
+    const ComplexMatrix none_Z = ComplexMatrix::Zero(pairs.Z.rows(), pairs.Z.cols());
+    const ComplexMatrix none_L = ComplexMatrix::Zero(pairs.Lambda.rows(), pairs.Lambda.cols());
+    Z.assign(count, none_Z);
+    Lambda.assign(count, none_L);
+    MZ_.assign(count, none_Z);
+    CZ_.assign(count, none_Z);
+    square_.assign(count, none_L);
+    Z[0] = pairs.Z;
+    Lambda[0] = pairs.Lambda;
+    update(0);
+  }
+
+  /// Coefficient j of the residuals and normalizations with Z_j = Lambda_j = 0.
+  void known_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) {
+    if (!massless_) MZ_[j] = product(pencil_.M, j);
+    if (!undamped_) CZ_[j] = product(pencil_.C, j);
+    residual = product(pencil_.K, j);
+    if (!massless_) {
+      ComplexMatrix inner = ComplexMatrix::Zero(square_[0].rows(), square_[0].cols());
+      for (std::size_t i = 1; i < j; ++i) inner += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
+      residual += with_blocks(pairs_, MZ_[j], square_[0]) + with_blocks(pairs_, MZ_[0], inner);
+      for (std::size_t i = 1; i < j; ++i) residual += with_blocks(pairs_, MZ_[j - i], square_[i]);
+    }
+    if (!undamped_) {
+      for (std::size_t i = 0; i < j; ++i) residual += with_blocks(pairs_, CZ_[j - i], Lambda[i]);
+    }
+    defect = ComplexMatrix::Zero(Lambda[0].rows(), Lambda[0].cols());
+    const Eigen::Index n = pairs_.Z.rows();
+    for (const PairSet::Place& place : pairs_.places) {
+      if (place.size == 1) continue;
+      const auto W1 = pairs_.W.bottomRows(n).middleCols(place.first, place.size);
+      auto block = defect.block(0, place.first, place.size, place.size);
+      for (std::size_t i = 1; i < j; ++i) {
+        block += thin_product(W1.adjoint(), thin_product(Z[i].middleCols(place.first, place.size),
+                                                         pairs_.block(Lambda[j - i], place)));
+      }
+    }
+  }
+
+  /// Adds the terms in Z_j and Lambda_j to them.
+  void unknown_terms(std::size_t j, ComplexMatrix& residual, ComplexMatrix& defect) const {
+    const PencilAtPoint pencil(pencil_);
+    ComplexMatrix slope = ComplexMatrix::Zero(Z[j].rows(), Z[j].cols());
+    ComplexMatrix by_value = slope;
+    if (!massless_) {
+      slope = with_blocks(pairs_, multiply_many(pencil.M, Z[j]), Lambda[0]);
+      slope += with_blocks(pairs_, MZ_[0], Lambda[j]);
+      by_value = with_blocks(pairs_, MZ_[0], Lambda[0]);
+    }
+    if (!undamped_) {
+      slope += multiply_many(pencil.C, Z[j]);
+      by_value += CZ_[0];
+    }
+    residual += with_blocks(pairs_, slope, Lambda[0]) + multiply_many(pencil.K, Z[j]);
+    residual += with_blocks(pairs_, by_value, Lambda[j]);
+    const Eigen::Index n = pairs_.Z.rows();
+    for (const PairSet::Place& place : pairs_.places) {
+      const auto X = Z[j].middleCols(place.first, place.size);
+      const auto W = pairs_.W.middleCols(place.first, place.size);
+      auto block = defect.block(0, place.first, place.size, place.size);
+      block += thin_product(W.topRows(n).adjoint(), X);
+      if (place.size == 1) continue;
+      const auto Z0 = Z[0].middleCols(place.first, place.size);
+      const ComplexMatrix ZL =
+          thin_product(X, pairs_.block(Lambda[0], place)) + thin_product(Z0, pairs_.block(Lambda[j], place));
+      block += thin_product(W.bottomRows(n).adjoint(), ZL);
+    }
+  }
+
+  /// Adds the terms of Z_j and Lambda_j to the products; to be called after known_terms(j).
+  void update(std::size_t j) {
+    if (!massless_) MZ_[j] += multiply_many(pencil_.M[0], Z[j]);
+    if (!undamped_) CZ_[j] += multiply_many(pencil_.C[0], Z[j]);
+    for (std::size_t i = 0; i <= j; ++i) square_[j] += multiply_blocks(pairs_, Lambda[i], Lambda[j - i]);
+  }
+
+ private:
+  static bool are_zero(const MatrixSeries& series) {
+    return std::all_of(series.begin(), series.end(), [](const Matrix& B) { return B.isZero(0.0); });
+  }
+
+  /// Coefficient j of B(h) Z(h) without the term B_0 Z_j.
+  ComplexMatrix product(const MatrixSeries& B, std::size_t j) const {
+    ComplexMatrix sum = ComplexMatrix::Zero(Z[0].rows(), Z[0].cols());
+    for (std::size_t i = 1; i <= j && i < B.size(); ++i) sum += multiply_many(B[i], Z[j - i]);
+    return sum;
+  }
+
+  const ReducedPencil& pencil_;
+  const PairSet& pairs_;
+  bool undamped_, massless_;
+  std::vector<ComplexMatrix> MZ_, CZ_, square_;
+};
+
+}  // namespace
+
 std::vector<PairSeries> differentiate_all(const ReducedPencil& pencil, const AllPairs& all, int order,
                                           double accuracy, ModeCounts& counts) {
   const PairSet& pairs = all.set;
-  SeriesEquations series(pencil, Chart::finite, pairs, order);
+  AllEquations series(pencil, pairs, order);
   // The basis is that of the corrected pairs: one solution is accurate to rounding, and one more refines it.
   // Blocks may be nearly defective; they are refined to the rounding level.
   const int most = has_blocks(pairs) ? 6 : all.basis.rounding() <= accuracy ? 1 : 2;
-  constexpr double rounding = 1e-16;
-  const auto solve = [&](const ComplexMatrix& R, const ComplexMatrix& N, ComplexMatrix& dZ,
-                         ComplexMatrix& dLambda) {
-    all.basis.solve(pairs, R, N, dZ, dLambda);
-    ++counts.modal_solves;
-  };
-  for (int j = 1; j <= order; ++j) series.solve_for(static_cast<std::size_t>(j), most, rounding, solve);
-  std::vector<PairSeries> result;
-  for (const PairSet::Place& place : pairs.places) result.push_back(series.of(place));
+  ComplexMatrix known, known_defect, dZ, dLambda;
+  for (std::size_t j = 1; j < series.Z.size(); ++j) {
+    series.known_terms(j, known, known_defect);
+    double last = INFINITY;
+    for (int i = 0; i < most; ++i) {
+      ComplexMatrix residual = known;
+      ComplexMatrix defect = known_defect;
+      if (i > 0) series.unknown_terms(j, residual, defect);
+      all.basis.solve(pairs, -residual, -defect, dZ, dLambda);
+      ++counts.modal_solves;
+      make_real(pairs, dZ, dLambda);
+      series.Z[j] += dZ;
+      series.Lambda[j] += dLambda;
+      const double total = series.Z[j].norm() + series.Lambda[j].norm();
+      const double size = dZ.norm() + dLambda.norm();
+      // Each correction reduces the error by about the same factor, so size^2 / last estimates the remaining
+      // error.
+      if (!(size > 1e-15 * total) || size > 0.5 * last || (i > 0 && size * size < 1e-16 * total * last))
+        break;
+      last = size;
+    }
+    series.update(j);
+  }
+  std::vector<PairSeries> result(pairs.places.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const PairSet::Place& place = pairs.places[i];
+    for (std::size_t j = 0; j < series.Z.size(); ++j) {
+      result[i].Z.emplace_back(series.Z[j].middleCols(place.first, place.size));
+      result[i].Lambda.emplace_back(pairs.block(series.Lambda[j], place));
+    }
+  }
   return result;
 }
 

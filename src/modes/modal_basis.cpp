@@ -6,7 +6,7 @@
 #include "core/products.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "core/thin_product.hpp"
-#include "eigentrail/modes/all_pairs.hpp"
+#include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {
@@ -53,6 +53,19 @@ std::optional<Matrix> inverse_of_leading(const PencilAtPoint& pencil, const std:
 }
 
 }  // namespace
+
+ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
+  if (B.isDiagonal(0.0)) return B.diagonal().asDiagonal() * Z;
+  const Eigen::Index m = Z.cols();
+  Matrix parts(Z.rows(), 2 * m);
+  parts.leftCols(m) = Z.real();
+  parts.rightCols(m) = Z.imag();
+  const Matrix both = product(B, parts);
+  ComplexMatrix result(B.rows(), m);
+  result.real() = both.leftCols(m);
+  result.imag() = both.rightCols(m);
+  return result;
+}
 
 std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const PairSet& pairs,
                                            std::optional<Matrix>& leading_inverse) {
@@ -121,7 +134,7 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
 }
 
 ComplexMatrix ModalBasis::coordinates(const ComplexMatrix& R) const {
-  const ComplexMatrix g = multiply(left_, R);
+  const ComplexMatrix g = multiply_many(left_, R);
   ComplexMatrix G(g.rows(), g.cols());
   for (std::size_t i = 0; i < real_row_.size(); ++i) {
     const Eigen::Index row = real_row_[i];
@@ -149,7 +162,7 @@ ComplexMatrix ModalBasis::vectors(const ComplexMatrix& U) const {
     u.row(row) = U.row(column) + U.row(conjugate_[i]);
     u.row(row + 1) = Complex(0.0, 1.0) * (U.row(column) - U.row(conjugate_[i]));
   }
-  return multiply(right_, u);
+  return multiply_many(right_, u);
 }
 
 void ModalBasis::prepare_division(const PairSet& pairs) {

@@ -217,7 +217,7 @@ class ModalBallTest {
   static ModalSample modal_sample(const ModalBasis& basis, const Sampled& centre,
                                   const ComplexMatrix& at_middle, const Sampled& there) {
     const auto modal = [&](const ComplexMatrix& R) {
-      return basis.coordinates(there.from_leading.size() == 0 ? R : multiply(there.from_leading, R));
+      return basis.coordinates(there.from_leading.size() == 0 ? R : multiply_many(there.from_leading, R));
     };
     ComplexMatrix change = there.set.Lambda - centre.set.Lambda;
     if (there.sample == centre.sample) {
