@@ -191,12 +191,12 @@ class IntervalWalk {
     const Complex s = path_.eigenvalues_at(at)[mode];
     if (!std::isfinite(s.real())) return false;
     const double p = path_.parameter_at(at);
-    const double excitation = excitation_series(options_.events, problem_.model.description().parameters,
-                                                parameters_at(problem_, p), 0)[0];
     const bool of_growth = event.kind == EventKind::flutter || event.kind == EventKind::divergence;
     const double error = of_growth ? errors_.growth_at(at.step, mode, p) : errors_.at(at.step, mode, p);
     // Near its zero no criterion changes by more than s does.
-    return std::abs(criterion_value(*criterion_of(event), s, Chart::finite, excitation)) <= error;
+    return std::abs(criterion_value(*criterion_of(event), s, options_.events,
+                                    problem_.model.description().parameters, parameters_at(problem_, p))) <=
+           error;
   }
 
   double end_of(const Event& event, double place, double direction) const {

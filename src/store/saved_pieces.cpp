@@ -41,7 +41,7 @@ SavedPieces saved_pieces(std::string_view bytes) {
   unpack(first, run.command, run.scene_path, run.settings, n_pieces, part.number, part.count,
          saved.blas_kernel);
   run.n_pieces = static_cast<std::size_t>(n_pieces);
-  if (part.count > 0) run.part = part;
+  if (part.number >= 1 && part.number <= part.count) run.part = part;
   for (std::string_view piece = take_record(left); !piece.empty(); piece = take_record(left)) {
     PiecesByName::key_type name;
     std::string result;

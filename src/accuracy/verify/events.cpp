@@ -91,12 +91,11 @@ std::string broken_condition(const CheckedFile& file, const Event& event, std::s
   }
   const std::optional<Criterion> criterion = criterion_of(event);
   if (!criterion) return "";
-  const Vector parameters = file.setup.parameters_at(event.p);
-  const double excitation = excitation_series(file.setup.options.events,
-                                              file.setup.model->description().parameters, parameters, 0)[0];
-  return std::abs(criterion_value(*criterion, event.s, Chart::finite, excitation)) <= rounding * scale
-             ? ""
-             : "its eigenvalue has not the value " + few_digits(event.value);
+  const double value =
+      criterion_value(*criterion, event.s, file.setup.options.events,
+                      file.setup.model->description().parameters, file.setup.parameters_at(event.p));
+  return std::abs(value) <= rounding * scale ? ""
+                                             : "its eigenvalue has not the value " + few_digits(event.value);
 }
 
 std::string fault_of(const CheckedFile& file, const Event& event, FreshSolver& solver) {

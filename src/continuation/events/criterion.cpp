@@ -102,6 +102,11 @@ double criterion_value(const Criterion& criterion, Complex mu, Chart chart, doub
   return evaluate(criterion, mu.real(), mu.imag(), chart, excitation);
 }
 
+double criterion_value(const Criterion& criterion, Complex s, const EventOptions& options,
+                       const Parameters& parameters, const Vector& values) {
+  return criterion_value(criterion, s, Chart::finite, excitation_series(options, parameters, values, 0)[0]);
+}
+
 Vector excitation_series(const EventOptions& options, const Parameters& parameters,
                          const VectorSeries& series, int order) {
   if (!options.excitation) return Vector::Zero(order + 1);

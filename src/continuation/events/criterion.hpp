@@ -43,6 +43,9 @@ Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Cha
 
 /// Value of the criterion.
 double criterion_value(const Criterion& criterion, Complex mu, Chart chart, double excitation);
+/// The same of s where the parameters have these values, in declared units.
+double criterion_value(const Criterion& criterion, Complex s, const EventOptions& options,
+                       const Parameters& parameters, const Vector& values);
 
 /// Series of the excitation frequency (rad/s, order + 1 coefficients) from the series of the parameters
 /// (declared units, one row per parameter, one column per power). Zero if the scene has no excitation.
