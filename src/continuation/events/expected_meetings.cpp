@@ -37,40 +37,12 @@ bool have_just_met(const Track& track, const std::vector<int>& a, const std::vec
 
 /// Adds a position unless the list has one within this share of it: the two roots into which a double root
 /// splits are one place.
-void add_position(double position, std::vector<double>& found, double share = 1e-3) {
+void add_position(double position, std::vector<double>& found) {
+  constexpr double share = 1e-3;
   const auto is_there = [&](double other) {
     return std::abs(other - position) <= share * std::abs(position);
   };
   if (std::none_of(found.begin(), found.end(), is_there)) found.push_back(position);
-}
-
-/// Adds the positions of roots of the gap's series at the left end. Close to that end the series is more
-/// accurate than an interpolant over the whole step.
-void add_near_left_end(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
-                       double length, std::vector<double>& found) {
-  constexpr double close = 0.2;    // share of the step up to which the series is accurate
-  constexpr double apart = 1e-6;   // share of the step: nearer roots are at the end itself
-  constexpr double on_axis = 0.1;  // largest |Im| / Re of a root on the axis, since double roots split
-  constexpr double known = 0.1;    // share of the position: nearer to a known one it is the same root
-  const ComplexVector gap = discriminant_of(track, a, b);
-  if (gap.size() == 0 || has_no_root_within(gap, close * std::abs(length))) return;
-  for (const Complex root : polynomial_roots(gap)) {
-    const Complex t = root / length;
-    if (t.real() < apart || t.real() > close || std::abs(t.imag()) > on_axis * t.real()) continue;
-    add_position(root.real(), found, known);
-  }
-}
-
-/// Estimated error, from that of the dense output, of a real root of the gap of a block of two. Infinite for
-/// larger blocks.
-double doubt_of_root(const PathNode& left, const PathNode& right, std::size_t track, double length,
-                     double position) {
-  if (left.tracks[track].size() != 2) return INFINITY;
-  constexpr Eigen::Index gap = 1;  // index of the gap among the functions
-  const HermiteInterpolant functions = functions_on_step(left, right, track, length);
-  const double slope = std::abs(functions.slope(position / length)[gap] / length);
-  // The value counts as an error, too: it is not zero where the root lies beside the real axis.
-  return (functions.error_without_last()[gap] + std::abs(functions(position / length)[gap])) / slope;
 }
 
 /// The stretch of a step on which rounding does not hide two eigenvalues of a track: not beside a meeting of
@@ -136,8 +108,6 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
         for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
-        if (stretch.from == 0.0)
-          add_near_left_end(track, branches[a].members, branches[b].members, length, found);
         if (!stretch.is_whole()) {
           std::erase_if(found, [&](double position) {
             const double t = position / length;
@@ -146,7 +116,6 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
         }
         for (const double position : found) {
           meetings.push_back({branches[b], branches[a], position});
-          meetings.back().doubt = doubt_of_root(left, right, i, length, position);
           meetings.back().has_just_met = has_just_met;
         }
       }

@@ -9,7 +9,6 @@ namespace eigentrail {
 struct ExpectedMeeting {
   EigenvalueBranch a, b;
   Complex position;           ///< distance from the left end; complex beside the real axis
-  double doubt = INFINITY;    ///< estimated error of the position; infinite: not known
   bool has_just_met = false;  ///< the two take part in a meeting at the left end
   /// The series at either end are no more than a hint of it.
   bool is_rough = false;
