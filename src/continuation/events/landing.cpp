@@ -177,8 +177,8 @@ bool MeetingLanding::is_left_end(const ExpectedMeeting& expected, double distanc
 }
 
 /// Estimates the offset of the meeting from the point at a distance from the left end. `rounding` is set to
-/// the error of the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place
-/// to all digits.
+/// the error of the estimate by rounding. `trusting`: ends the walk as soon as the series there give the
+/// place to all digits.
 Sight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
                                 EigenvalueSampler& branches, double& rounding) {
   const double h = step_.h;

@@ -120,69 +120,20 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
   return others;
 }
 
-/// A pair that was corrected from an inaccurate start as the member with Im s >= 0: else the conjugate of a
-/// followed mode would be taken for another one. A complex start may have led to a real eigenvalue: in a
-/// complex block that one could not be told from its conjugate where the block meets its own.
-InvariantPair upper_member(const PencilAtPoint& pencil, InvariantPair pair, bool is_complex_part,
-                           double s_ref, const CorrectorOptions& options, ModeCounts& counts) {
-  if (pair.size() != 1 || pair.is_real) return pair;
-  const Complex s = pair.eigenvalue();
-  if (!is_complex_part && std::abs(s.imag()) <= real_axis * std::abs(s)) {
-    InvariantPair start = pair;
-    start.Z = real_vector(pair.Z.col(0));
-    start.Lambda = s.real() * ComplexMatrix::Identity(1, 1);
-    start.is_real = true;
-    start.factors.reset();
-    InvariantPair real = correct_pair(pencil, start, s_ref, options, counts);
-    if (real.status == PairStatus::converged) return real;
-  }
-  return s.imag() < 0.0 ? conjugated(pair) : pair;
-}
-
-/// Whether a track is followed by its eigenvalues with Im s < 0: in the chart 1/s, those with Im (1/s) > 0
-/// are.
-bool is_followed_below(const PathNode& node, const Track& track) {
-  return !track.pair.is_real && node.pencil.of(track.pair.part).complex_sign == 0 &&
-         chart_value(track.roots.mean(), track.pair.chart).imag() < 0.0;
-}
-
-/// The problem with thresholds that tell whether a guard mode is a mode that is followed. An inaccurate start
-/// may converge to one. Where two have just met, their eigenvalues differ from those of the guard mode by the
-/// root of rounding, relative to the pencil, whose measure is the largest eigenvalue; the spaces agree.
-PathProblem for_comparison_with_guards(PathProblem problem, const PathNode& node, const Track& track) {
-  double& distance = problem.thresholds.identity.merged_distance;
-  distance = std::max(same, distance);
-  if (!track.departure) return problem;
-  for (const Track& other : node.tracks) {
-    for (const Complex root : other.roots) {
-      const double magnitude = std::abs(chart_value(root, other.pair.chart));
-      if (std::isfinite(magnitude)) problem.s_ref = std::max(problem.s_ref, magnitude);
-    }
-  }
-  return problem;
-}
-
 }  // namespace
 
 void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
   if (node.pencil.of(node.tracks[track].pair.part).size() > most_freedoms) return;
   const StageTimer timer(counts.matching_seconds);
-  const PathProblem compared = for_comparison_with_guards(problem, node, node.tracks[track]);
   const std::vector<StartingMode> others = neighbours_of(problem, node, node.tracks[track]);
-  const bool is_below = is_followed_below(node, node.tracks[track]);
   for (const StartingGroup& group :
        starting_groups(node.pencil, others, static_cast<int>(others.size()), problem.s_ref)) {
     const PencilAtPoint pencil(node.pencil.of(group.pair.part));
     InvariantPair pair = correct_pair(pencil, group.pair, problem.s_ref, problem.corrector, counts.modes);
     if (pair.status != PairStatus::converged) continue;
-    pair = upper_member(pencil, std::move(pair), node.pencil.of(group.pair.part).complex_sign != 0,
-                        problem.s_ref, problem.corrector, counts.modes);
     Track guard = differentiate_track(problem, node, std::move(pair), counts);
     if (!guard.functions.allFinite()) continue;
-    if (is_followed(compared, node, guard)) continue;
-    // It meets the track in the half-plane in which that is followed.
-    if (is_below && guard.size() == 1 && !guard.pair.is_real)
-      guard = differentiate_track(problem, node, conjugated(guard.pair), counts);
+    if (is_followed(problem, node, guard)) continue;
     guard.roots = in_order_of(group.roots, guard.roots);
     guard.modes.assign(group.modes.size(), Track::guard);
     node.tracks.push_back(std::move(guard));
