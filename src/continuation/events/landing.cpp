@@ -37,18 +37,6 @@ constexpr int few_looks = 2;
 /// In steps: predicted meetings this close to the one that was located may lie on the same point.
 constexpr double worth_a_look = 1e-3;
 
-/// A veering that is narrower than places are known is a crossing: eigenvalues near zero are small
-/// differences of the stiffness, whose rounding the block does not show. As in meetings.cpp, it is one for
-/// certain where it is narrower than a tenth of that.
-Meeting beyond_rounding(Meeting meeting, double range) {
-  constexpr double left_of_a_crossing = 0.1;
-  if (meeting.kind != EventKind::veering || meeting.half_width > landing_accuracy * range) return meeting;
-  meeting.kind = EventKind::crossing;
-  meeting.is_certain = meeting.half_width <= left_of_a_crossing * landing_accuracy * range;
-  meeting.half_width = 0.0;
-  return meeting;
-}
-
 /// Shortens a step in the coordinate across a plane to the end of the range in p. False if that fails. In the
 /// coordinate p, a step never passes the end.
 bool land_on_end(StepSolver& solver, Step& step) {
@@ -159,8 +147,7 @@ bool MeetingLanding::attempt(double distance) {
 /// The meeting at the end of the step, shortened or not, if there is one.
 std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& expected) const {
   const Track& track = (cut_ ? cut_->right : step_.right).tracks[expected.a.track];
-  const Meeting meeting =
-      beyond_rounding(seen_from(track, expected), solver_.points().frame().coordinate_range());
+  const Meeting meeting = seen_from(track, expected);
   if (!meeting.found || std::abs(meeting.offset) > std::max(at_point_, meeting.rounding) ||
       meeting.half_width > thresholds_.narrow * std::abs(step_.h))
     return std::nullopt;
