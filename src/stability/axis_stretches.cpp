@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "eigentrail/continuation/eigenvalue_error.hpp"
@@ -60,7 +61,6 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Judgin
   AxisSample result;
   result.at = at;
   result.exact = at.t == 0.0 || at.t == 1.0;
-  result.all_decay = true;
   const ComplexVector s = path.eigenvalues_at(at);
   double fastest = -INFINITY;
   for (const DenseBlock& block : path.steps[at.step].blocks) {
@@ -71,13 +71,14 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Judgin
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
       const double doubt = doubts[static_cast<Eigen::Index>(i)];
-      if (growth > doubt) result.unstable.push_back(mode);
-      result.all_decay = result.all_decay && growth < -doubt;
+      std::vector<int>& list = growth > doubt    ? result.unstable
+                               : growth < -doubt ? result.decaying
+                                                 : result.open;
+      list.push_back(mode);
       if (growth > fastest) result.critical = mode;
       fastest = std::max(fastest, growth);
     }
   }
-  std::sort(result.unstable.begin(), result.unstable.end());
   result.margin = result.critical < 0 ? std::numeric_limits<double>::quiet_NaN() : -fastest;
   return result;
 }
@@ -86,7 +87,7 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Judgin
 std::optional<Stability> verdict(const AxisSample& sample) {
   if (sample.critical < 0) return std::nullopt;
   if (!sample.unstable.empty()) return Stability::unstable;
-  if (sample.all_decay) return Stability::stable;
+  if (sample.all_decay()) return Stability::stable;
   return sample.exact ? std::optional(Stability::marginal) : std::nullopt;
 }
 
@@ -202,7 +203,7 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   const AxisSample& growing = first.unstable.empty() ? second : first;
   const AxisSample& other = first.unstable.empty() ? first : second;
   const auto grows = [&](const AxisSample& s) {
-    return other.all_decay ? s.margin < 0.0 : !s.unstable.empty();
+    return other.all_decay() ? s.margin < 0.0 : !s.unstable.empty();
   };
   double inside = growing.at.in_steps();
   double outside = other.at.in_steps();
@@ -284,48 +285,54 @@ void add_stretches(const RecordedPath& path, const AxisCut& from, const AxisCut&
     add_stretches(path, *cut, to, judging, depth + 1, most, stretches);
     return;
   }
-  const auto told = verdict(stretch);
-  stretch.seen = told.has_value();
-  stretch.stability = told.value_or(Stability::marginal);
   stretches.push_back(std::move(stretch));
 }
 
-/// The modes that grow on the other side of a cut, given those that grow on this side. The modes of the cut
-/// change from growing to decaying or the reverse; all others stay as they are.
-std::vector<int> passed(const std::vector<int>& unstable, const AxisCut& cut) {
-  std::vector<int> result;
-  std::set_symmetric_difference(unstable.begin(), unstable.end(), cut.modes.begin(), cut.modes.end(),
-                                std::back_inserter(result));
-  return result;
+/// The sign of Re s of each mode on a stretch; open where its error hides it at all samples.
+enum class Sign { open, decays, grows };
+using Signs = std::map<int, Sign>;
+
+Signs signs_of(const AxisStretch& stretch) {
+  Signs signs;
+  for (const AxisSample& here : stretch.samples) {
+    for (const int mode : here.open) signs.emplace(mode, Sign::open);
+    for (const int mode : here.decaying) signs[mode] = std::max(signs[mode], Sign::decays);
+    for (const int mode : here.unstable) signs[mode] = Sign::grows;
+  }
+  return signs;
 }
 
-/// Modes that grow at the first (or last) sample with a verdict.
-std::vector<int> unstable_at_end(const AxisStretch& stretch, bool first) {
-  const auto tells = [](const AxisSample& s) { return verdict(s).has_value(); };
-  const auto& samples = stretch.samples;
-  if (!stretch.seen) return samples.front().unstable;
-  return first ? std::find_if(samples.begin(), samples.end(), tells)->unstable
-               : std::find_if(samples.rbegin(), samples.rend(), tells)->unstable;
+/// Carries signs over a cut to those that are open behind it. Where modes meet the axis and do not pass it,
+/// their signs say nothing about the other side.
+void carry(const Signs& from, const AxisCut& cut, Signs& to) {
+  for (auto& [mode, sign] : to) {
+    const auto known = from.find(mode);
+    if (sign != Sign::open || known == from.end() || known->second == Sign::open) continue;
+    const bool meets = std::binary_search(cut.modes.begin(), cut.modes.end(), mode);
+    if (!meets)
+      sign = known->second;
+    else if (cut.passes)
+      sign = known->second == Sign::grows ? Sign::decays : Sign::grows;
+  }
 }
 
-/// Sets the stability of a stretch without verdict from a neighbour and the cut between them. Returns false,
-/// and changes nothing, if modes do not pass the axis at the cut or the neighbour is marginal.
-bool settle(AxisStretch& stretch, const AxisStretch& neighbour, bool neighbour_is_next) {
-  const AxisCut& cut = neighbour_is_next ? stretch.to : stretch.from;
-  if (!cut.passes || neighbour.stability == Stability::marginal) return false;
-  const std::vector<int> unstable = passed(unstable_at_end(neighbour, neighbour_is_next), cut);
-  stretch.stability = unstable.empty() ? Stability::stable : Stability::unstable;
-  for (AxisSample& sample : stretch.samples) sample.unstable = unstable;
-  return true;
-}
-
-/// Sets the stability of all stretches without verdict, from the stretch before where possible, otherwise
-/// from the stretch behind.
-void settle_unseen(std::vector<AxisStretch>& stretches) {
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    if (stretches[i].seen) continue;
-    if (i > 0 && settle(stretches[i], stretches[i - 1], false)) continue;
-    if (i + 1 < stretches.size() && stretches[i + 1].seen) settle(stretches[i], stretches[i + 1], true);
+/// Sets the stability of all stretches: by their samples where these tell, else by the signs of all modes.
+void judge_stretches(std::vector<AxisStretch>& stretches) {
+  std::vector<Signs> signs;
+  for (const AxisStretch& stretch : stretches) signs.push_back(signs_of(stretch));
+  for (std::size_t i = 1; i < signs.size(); ++i) carry(signs[i - 1], stretches[i].from, signs[i]);
+  for (std::size_t i = signs.size(); i-- > 1;) carry(signs[i], stretches[i].from, signs[i - 1]);
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    AxisStretch& stretch = stretches[i];
+    bool all_decay = true;
+    for (const auto& [mode, sign] : signs[i]) {
+      all_decay = all_decay && sign == Sign::decays;
+      if (sign == Sign::grows) stretch.growing.push_back(mode);
+    }
+    const Stability by_signs = !stretch.growing.empty() ? Stability::unstable
+                               : all_decay              ? Stability::stable
+                                                        : Stability::marginal;
+    stretch.stability = verdict(stretch).value_or(by_signs);
   }
 }
 
@@ -356,12 +363,6 @@ std::string stability_name(Stability stability) {
   return "unknown";
 }
 
-bool AxisStretch::grows(int mode) const {
-  return std::any_of(samples.begin(), samples.end(), [mode](const AxisSample& s) {
-    return std::binary_search(s.unstable.begin(), s.unstable.end(), mode);
-  });
-}
-
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy) {
   if (path.steps.empty()) return {};
@@ -370,7 +371,7 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
   std::vector<AxisStretch> stretches;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
     add_stretches(path, cuts[i], cuts[i + 1], judging, 0, stretches.size() + most_between_events, stretches);
-  settle_unseen(stretches);
+  judge_stretches(stretches);
   for (AxisStretch& stretch : stretches) include_unfollowed(path, stretch);
   return stretches;
 }
@@ -386,7 +387,8 @@ int count_growing(const RecordedPath& path, const AxisStretch& stretch, const Pa
       const double growth = s[mode].real();
       if (!std::isfinite(growth)) continue;
       const bool doubtful = std::abs(growth) <= doubts[static_cast<Eigen::Index>(i)];
-      if (doubtful ? stretch.grows(mode) : growth > 0.0) ++count;
+      const bool grows = std::binary_search(stretch.growing.begin(), stretch.growing.end(), mode);
+      if (doubtful ? grows : growth > 0.0) ++count;
     }
   }
   return std::max(count, 1);

@@ -41,25 +41,25 @@ struct AxisSample {
   PathPosition at;
   double margin = 0.0;        ///< -max Re s, 1/s
   int critical = -1;          ///< the mode with the largest Re s; -1: no mode exists that moves
-  std::vector<int> unstable;  ///< modes with Re s above its error bound, ascending
-  bool all_decay = false;     ///< Re s of every mode is below minus its error bound
+  std::vector<int> unstable;  ///< modes with Re s above its error bound
+  std::vector<int> decaying;  ///< modes with Re s below minus its error bound
+  std::vector<int> open;      ///< all others that exist and move
   bool exact = false;         ///< a stored point, not a place on the dense output
+
+  bool all_decay() const { return unstable.empty() && open.empty(); }
 };
 
 struct AxisStretch {
   AxisCut from, to;
   Stability stability = Stability::marginal;
-  /// False if at no sample the real parts exceed the error of the dense output, as on very short stretches.
-  /// The stability then follows from a neighbouring stretch if possible, and is marginal otherwise.
-  bool seen = true;
+  /// Modes (numbered from 0, ascending) that grow: by a sample or, where the error of the dense output hides
+  /// that at all of them, by a neighbouring stretch and what passes the axis between them.
+  std::vector<int> growing = {};
   /// Whether no mode grows that is not followed, by the stored points inside and next to it. Where some grow
   /// the stretch is unstable.
   bool whole = false;
   /// Samples inside, in the order of the trace, and at those ends that are not on the axis; at least one.
   std::vector<AxisSample> samples = {};
-
-  /// Whether a mode (numbered from 0) grows at some sample of the stretch.
-  bool grows(int mode) const;
 };
 
 /// Accuracy of the dense output: the error of s is at most tolerance * max(|s|, reference).
@@ -76,7 +76,7 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
 
 /// Number of growing modes at a place of the stretch with the eigenvalues `s`. A mode
 /// grows if Re s > 0. Where |Re s| is within the error of the dense output, a mode counts as growing if it
-/// grows at a sample of the stretch. The result is 0 if the stretch is not unstable, and at least 1 if it is.
+/// grows on the stretch. The result is 0 if the stretch is not unstable, and at least 1 if it is.
 int count_growing(const RecordedPath& path, const AxisStretch& stretch, const PathPosition& at,
                   const ComplexVector& s, const EigenvalueAccuracy& accuracy);
 
