@@ -1,12 +1,11 @@
-// Inserts styles and scripts into the page: node assemble.mjs PAGE OUTPUT LIBRARY
-// Each <!-- insert NAME --> in the page is replaced by the LIBRARY, or the file beside the page, of that name.
-import { basename, dirname, join } from "node:path";
+// Inserts styles and scripts into the page: node assemble.mjs PAGE OUTPUT STYLES LIBRARY SCRIPTS...
 import { readFileSync, writeFileSync } from "node:fs";
 
-const [page, output, library] = process.argv.slice(2);
-const text = readFileSync(page, "utf8").replace(/<!-- insert (\S+) -->/g, (mark, name) => {
-  const content = readFileSync(name === basename(library) ? library : join(dirname(page), name), "utf8");
-  if (/<\/(script|style)/i.test(content)) throw new Error(`${name}: would end the element that it stands in`);
+const [page, output, styles, library, ...scripts] = process.argv.slice(2);
+const parts = { styles: [styles], library: [library], scripts };
+const text = readFileSync(page, "utf8").replace(/<!-- insert (\S+) -->/g, (mark, name) => parts[name].map((file) => {
+  const content = readFileSync(file, "utf8");
+  if (/<\/(script|style)/i.test(content)) throw new Error(`${file}: would end the element that it stands in`);
   return content;
-});
+}).join("\n"));
 writeFileSync(output, text);
