@@ -16,11 +16,14 @@ WITHOUT_EXAMPLE = {"__version__", "Error", "NotProjected", "NotResolved", "Scene
 
 class Docstrings(unittest.TestCase):
     def test_examples(self):
+        scope = {}  # all examples have the scene of that of `trace`
+        for example in doctest.DocTestParser().get_examples(eigentrail.trace.__doc__)[:2]:
+            exec(example.source, scope)
         for module in pkgutil.iter_modules(eigentrail.__path__):
             if module.name.startswith("_") or module.name == "plot":
                 continue
             with self.subTest(module.name):
-                failed, _ = doctest.testmod(importlib.import_module(f"eigentrail.{module.name}"), optionflags=doctest.ELLIPSIS)
+                failed, _ = doctest.testmod(importlib.import_module(f"eigentrail.{module.name}"), extraglobs=scope, optionflags=doctest.ELLIPSIS)
                 self.assertEqual(failed, 0)
 
     def test_all_that_is_public_says_what_it_does(self):

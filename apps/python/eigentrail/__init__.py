@@ -7,6 +7,8 @@
     loci.eigentrail.campbell(harmonics=[1, 2])                       # a figure
     loci.eigentrail.save("out.h5")                                   # the file that the program writes
     loci = et.open("out.h5")
+
+Examples of functions have the `scene` of that of `trace`.
 """
 
 import sys

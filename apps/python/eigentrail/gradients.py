@@ -44,10 +44,6 @@ def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = Non
     say what was differentiated. Parameters that others define are left out: their derivatives are in those of the others.
     NaN where the eigenvalue is multiple.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> loci = et.trace(scene)
     >>> round(float(et.gradient(loci, "flutter")["drag"]), 4)                   # how far flutter moves per unit of drag
     0.2914
@@ -74,10 +70,6 @@ def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = Non
 def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
     """The least damping ratio of all modes, or of one, on the whole range of a trace, from its dense output.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> least = et.least_damping(et.trace(scene, p=(0, 0.4)))
     >>> round(least.value, 4), round(least.at, 4)
     (0.0354, 0.0)

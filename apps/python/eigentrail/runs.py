@@ -100,10 +100,6 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     it is that of the second parameter. `damping_ratio`: the curves on which a pair has this damping ratio. `lines`: lines of
     the window that are searched in each direction (5). Raises KeyboardInterrupt for Ctrl-C.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> curves = et.boundary(scene, p=(0, 1), drag=(0.05, 0.5))
     >>> curves.sizes["curve"], curves.curve_kind.values[0]
     (1, 'flutter')
@@ -127,10 +123,6 @@ def map(scene: Source, *, grid: Union[int, tuple[int, int]] = 50, tolerance: Opt
     Ranges as for `boundary`. `grid`: values of the second parameter and of the first one, or one number for both. `jobs`:
     threads, 0 for one per core. Raises KeyboardInterrupt for Ctrl-C.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> stability = et.map(scene, p=(0, 1), drag=(0.05, 0.5), grid=(4, 5))
     >>> stability.unstable.dims, int(stability.unstable.sel(p=0, drag=0.5))
     (('drag', 'p'), 0)
@@ -153,10 +145,6 @@ def accuracy(scene: Source, *, tolerances: Optional[Sequence[float]] = None, ord
     The Dataset of an accuracy file. `orders` of the power series, `grids`: points of the grids of the other methods,
     `samples`: values at which errors are measured, `repeat`: runs whose median time counts.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> study = et.accuracy(scene, tolerances=[1e-6], orders=[4], grids=[25], samples=20, repeat=1)
     >>> bool(study.error.sel(run=0) < 1e-6)
     True
@@ -177,10 +165,6 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     Columns: the parameter, mode, eigenvalue (1/s), natural_frequency and damped_frequency (rad/s), damping_ratio, what_moves,
     condition; for samples also interpolation_error and digits_error (1/s). `at` is by default where [trace] begins.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> et.spectrum(scene, at=0.25)[["p", "mode", "damped_frequency"]].round(4)
           p  mode  damped_frequency
     0  0.25     1            1.0317
@@ -205,10 +189,6 @@ def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapp
 
     `sensitivity` ranks the effects by their influence on each mode where the trace begins.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> print(et.explain(scene).splitlines()[0].strip())
     2 freedoms: 2 coordinates, no constraints.
     """
@@ -229,10 +209,6 @@ class Explanation(str):
 def events(loci: xarray.Dataset) -> pandas.DataFrame:
     """Special points of a trace: a table, one row per event; the same as `loci.eigentrail.events`.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> list(et.events(et.trace(scene)).kind)
     ['collision', 'flutter']
     """

@@ -47,10 +47,6 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
     their eigenvalues where shapes do not tell. `.eigentrail.runs` are the Datasets of the single traces, by their values. `jobs`: traces at a time, 0 for one
     per core. Ctrl-C ends the sweep with KeyboardInterrupt.
 
-    >>> import eigentrail as et
-    >>> scene = {"parameters": {"drag": 0.1, "p": 0.0}, "trace": {"parameter": "p", "from": 0, "to": 1},
-    ...          "matrix_family": {"M": [[[1, 0], [0, 1]]], "C": [[["drag", 0], [0, "drag"]]],
-    ...                            "K": [[[1, 0], [0, 2]], [[0, 1], [-1, 0]]]}}
     >>> swept = et.sweep(scene, {"drag": [0.1, 0.2]}, points=3)
     >>> swept.eigenvalue.dims, swept.flutter.values.round(3)
     (('drag', 'p', 'mode'), array([0.515, 0.557]))
