@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include "continuation/step/path_step.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
@@ -36,28 +35,10 @@ constexpr std::array<Closeness, 3> closeness{{{1e-8, 6}, {1e-7, 6}, {2.5e-7, 3}}
 /// places all the time, no number would be enough.
 constexpr std::size_t share_of_step = 1000;
 
-/// Counts the eigenvalues that are computed from the functions of blocks, and limits their number.
-class RootBudget {
- public:
-  RootBudget(const LociFile& loci, std::size_t besides) : path_(loci.path), most_(besides) {
-    for (const PathStep& step : loci.steps) {
-      for (const DenseBlock& block : step.blocks)
-        most_ += block.size() > 1 ? besides / share_of_step * block.modes.size() : 0;
-    }
-  }
-  std::size_t& used() { return used_; }
-  void check() const {
-    if (used_ > most_) {
-      throw InputError(path_ +
-                       ": the eigenvalues of a block change places too often to be drawn; is the file "
-                       "damaged? Trace the scene again");
-    }
-  }
-
- private:
-  std::string path_;
-  std::size_t most_;
-  std::size_t used_ = 0;
+/// Counts the eigenvalues that are computed from the functions of blocks.
+struct RootCount {
+  std::size_t most = 0;
+  std::size_t used = 0;
 };
 
 /// The distance along the path from its beginning, at every point of the trace.
@@ -92,40 +73,33 @@ double hidden_beside(const HermiteInterpolant& functions, double end) {
 /// The dense output of one mode on the steps from `first` to the last one before the mode ceases to exist.
 class ModeStretch {
  public:
-  ModeStretch(const LociFile& loci, int mode, std::size_t first, RootBudget& budget)
-      : loci_(loci), mode_(mode), first_(first), budget_(budget) {
+  ModeStretch(const LociFile& loci, int mode, std::size_t first, RootCount& roots)
+      : loci_(loci), mode_(mode), first_(first), roots_(roots) {
     for (std::size_t i = first; i < loci.steps.size(); ++i) {
       const PathStep& step = loci.steps[i];
       const DenseBlock* block = loci.block_of(i, mode);
       if (block == nullptr) break;
-      alone_.emplace_back();
-      hidden_.emplace_back();
       const HermiteInterpolant functions(step.length, block->left, block->right);
-      if (block->size() == 1) {
-        alone_.back() = functions;
-      } else {
-        hidden_.back() = {hidden_beside(functions, 0.0), hidden_beside(functions, 1.0)};
-      }
-      blocks_.push_back(block);
+      steps_.push_back({block, functions, hidden_beside(functions, 0.0), hidden_beside(functions, 1.0)});
     }
-    for (std::size_t i = 0; i < hidden_.size(); ++i) {
-      if (hidden_[i].left > 0.0) hidden_[i].at_left = value(i, hidden_[i].left);
-      if (hidden_[i].right > 0.0) hidden_[i].at_right = value(i, 1.0 - hidden_[i].right);
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      Step& step = steps_[i];
+      if (step.left > 0.0) step.at_left = value(i, step.left);
+      if (step.right > 0.0) step.at_right = value(i, 1.0 - step.right);
     }
   }
 
-  std::size_t first() const { return first_; }
-  std::size_t n_steps() const { return blocks_.size(); }
+  std::size_t n_steps() const { return steps_.size(); }
 
   /// The eigenvalue at t in [0, 1] on step i of the stretch, equal to the output of `eigentrail eval`. Beside
   /// a point where many are one, as far as rounding hides them, a chord.
   Complex operator()(std::size_t i, double t) const {
-    const Hidden& hidden = hidden_[i];
+    const Step& step = steps_[i];
     const auto chord = [&](double end, double share, Complex to) {
       return value(i, end) + share * (to - value(i, end));
     };
-    if (t < hidden.left) return chord(0.0, t / hidden.left, hidden.at_left);
-    if (1.0 - t < hidden.right) return chord(1.0, (1.0 - t) / hidden.right, hidden.at_right);
+    if (t < step.left) return chord(0.0, t / step.left, step.at_left);
+    if (1.0 - t < step.right) return chord(1.0, (1.0 - t) / step.right, step.at_right);
     return value(i, t);
   }
 
@@ -134,29 +108,35 @@ class ModeStretch {
     const auto node = static_cast<Eigen::Index>(first_ + i);
     if (t == 0.0) return loci_.eigenvalues(node, mode_);
     if (t == 1.0) return loci_.eigenvalues(node + 1, mode_);
-    if (alone_[i]) {
-      const Complex s = chart_value((*alone_[i])(t)[0], blocks_[i]->chart);
+    if (steps_[i].block->size() == 1) {
+      const Complex s = chart_value(steps_[i].functions(t)[0], steps_[i].block->chart);
       return s.imag() < 0.0 ? std::conj(s) : s;
     }
-    const PathStep step{loci_.steps[first_ + i].length, loci_.steps[first_ + i].parameter, {*blocks_[i]}};
-    budget_.check();
+    const PathStep step{
+        loci_.steps[first_ + i].length, loci_.steps[first_ + i].parameter, {*steps_[i].block}};
+    if (roots_.used > roots_.most) {
+      throw InputError(loci_.path +
+                       ": the eigenvalues of a block change places too often to be drawn; is the file "
+                       "damaged? Trace the scene again");
+    }
     return counted_eigenvalues(step, loci_.eigenvalues.row(node).transpose(),
-                               loci_.eigenvalues.row(node + 1).transpose(), t, budget_.used())[mode_];
+                               loci_.eigenvalues.row(node + 1).transpose(), t, roots_.used)[mode_];
   }
 
-  /// Parts of a step, from its left and to its right end, and the eigenvalue at their borders.
-  struct Hidden {
-    double left = 0.0, right = 0.0;
+  /// Where rounding hides the eigenvalues: shares of the step, from its left and to its right end, and the
+  /// eigenvalue at their borders.
+  struct Step {
+    const DenseBlock* block;
+    HermiteInterpolant functions;
+    double left, right;
     Complex at_left = {}, at_right = {};
   };
 
   const LociFile& loci_;
   int mode_;
   std::size_t first_;
-  RootBudget& budget_;
-  std::vector<const DenseBlock*> blocks_;
-  std::vector<std::optional<HermiteInterpolant>> alone_;
-  std::vector<Hidden> hidden_;
+  RootCount& roots_;
+  std::vector<Step> steps_;
 };
 
 struct Extent {
@@ -203,31 +183,24 @@ PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, do
 /// The values as integers of 32 bits: value = middle + unit * integer, for real and imaginary parts
 /// separately. The middle is a multiple of the unit, so zero is represented exactly.
 Json fixed_point(const std::vector<Complex>& values) {
-  Extent real, imag;
-  for (const Complex s : values) {
-    real.add(s.real());
-    imag.add(s.imag());
-  }
   constexpr double numbers_in_range = 4294967290.0;  // a little less than 2^32, for rounding at the ends
-  const auto unit = [](const Extent& extent) { return extent.range() / numbers_in_range; };
-  const auto middle = [&](const Extent& extent) {
-    const double plain = 0.5 * (extent.low + extent.high);
-    const double step = unit(extent);
-    const double whole = step > 0.0 ? std::round(plain / step) * step : plain;
-    return std::isfinite(whole) ? whole : plain;
-  };
-  const auto number = [&](double value, const Extent& extent) {
-    if (unit(extent) == 0.0) return std::int32_t{0};
-    return static_cast<std::int32_t>(
-        std::clamp(std::round((value - middle(extent)) / unit(extent)), -2147483647.0, 2147483647.0));
-  };
-  std::vector<std::int32_t> numbers;
-  numbers.reserve(2 * values.size());
-  for (const Complex s : values) {
-    numbers.push_back(number(s.real(), real));
-    numbers.push_back(number(s.imag(), imag));
+  std::vector<double> scale;
+  std::vector<std::int32_t> numbers(2 * values.size());
+  const Eigen::Map<const Eigen::Matrix2Xd> parts(reinterpret_cast<const double*>(values.data()), 2,
+                                                 static_cast<Eigen::Index>(values.size()));
+  for (const Eigen::Index part : {0, 1}) {
+    const double low = parts.row(part).minCoeff(), high = parts.row(part).maxCoeff();
+    const double unit = (high - low) / numbers_in_range, plain = 0.5 * (low + high);
+    const double whole = unit > 0.0 ? std::round(plain / unit) * unit : plain;
+    const double middle = std::isfinite(whole) ? whole : plain;
+    for (std::size_t i = 0; i < values.size() && unit > 0.0; ++i) {
+      const double number = std::round((parts(part, static_cast<Eigen::Index>(i)) - middle) / unit);
+      numbers[2 * i + static_cast<std::size_t>(part)] =
+          static_cast<std::int32_t>(std::clamp(number, -2147483647.0, 2147483647.0));
+    }
+    scale.insert(scale.end(), {middle, unit});
   }
-  return {{"scale", {middle(real), unit(real), middle(imag), unit(imag)}}, {"values", base64(numbers)}};
+  return {{"scale", scale}, {"values", base64(numbers)}};
 }
 
 struct ModeCurves {
@@ -236,7 +209,7 @@ struct ModeCurves {
 };
 
 ModeCurves approximate_modes(const LociFile& loci, const std::vector<double>& places, const Closeness& close,
-                             std::size_t budget, RootBudget& roots) {
+                             std::size_t budget, RootCount& roots) {
   const double largest = largest_shown(loci);
   ModeCurves result;
   for (std::size_t mode = 0; mode < loci.modes.size() && result.bytes <= budget; ++mode) {
@@ -275,15 +248,19 @@ Json parameter_data(const LociFile& loci, const std::vector<double>& places) {
 Json curves_data(const LociFile& loci, const ReportBudget& budget) {
   const std::vector<double> places = distances(loci);
   ModeCurves curves;
-  Closeness used = closeness.back();
-  RootBudget roots(loci, budget.roots);
+  RootCount roots{budget.roots};
+  for (const PathStep& step : loci.steps) {
+    for (const DenseBlock& block : step.blocks)
+      roots.most += block.size() > 1 ? budget.roots / share_of_step * block.modes.size() : 0;
+  }
+  const Closeness* used = nullptr;
   for (const Closeness& close : closeness) {
-    const bool last = close.degree == closeness.back().degree && close.share == closeness.back().share;
-    curves = approximate_modes(loci, places, close, last ? SIZE_MAX : budget.curves, roots);
-    used = close;
+    used = &close;
+    const std::size_t most = used == &closeness.back() ? SIZE_MAX : budget.curves;
+    curves = approximate_modes(loci, places, close, most, roots);
     if (curves.bytes <= budget.curves) break;
   }
-  Json data{{"closeness", used.share}, {"degree", used.degree}};
+  Json data{{"closeness", used->share}, {"degree", used->degree}};
   data["nodes"] = {{"place", base64(places)}, {"parameter", base64(loci.p)}};
   data["parameter"] = parameter_data(loci, places);
   for (const std::vector<PiecewiseCurve>& mode : curves.modes) {

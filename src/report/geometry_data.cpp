@@ -16,23 +16,17 @@ namespace {
 using Triple = std::array<double, 3>;
 using PlaceExpressions = std::array<Expression, 3>;
 
-/// A point (3 coordinates) or a body (12 coordinates: origin and three axes). `first`: index of its first
+/// Points (3 coordinates) and bodies (12 coordinates: origin and three axes). `first`: index of the first
 /// coordinate.
-struct Carrier {
-  std::string name;
-  std::size_t first = 0;
-  bool body = false;
-};
-
-std::vector<Carrier> carriers(const std::vector<std::string>& coordinates) {
-  std::vector<Carrier> list;
+Json carriers(const std::vector<std::string>& coordinates) {
+  Json list = Json::array();
   for (std::size_t i = 0; i + 2 < coordinates.size(); ++i) {
     const std::string& name = coordinates[i];
     if (!name.ends_with(".x") || name.ends_with("_axis.x")) continue;
     const std::string base = name.substr(0, name.size() - 2);
     if (coordinates[i + 1] != base + ".y" || coordinates[i + 2] != base + ".z") continue;
     const bool body = i + 11 < coordinates.size() && coordinates[i + 3] == base + ".x_axis.x";
-    list.push_back({base, i, body});
+    list.push_back({{"name", base}, {"first", i}, {"body", body}});
   }
   return list;
 }
@@ -52,32 +46,23 @@ class Figure {
     for (const std::size_t node : nodes) values_.push_back(si_values(scene_, loci.parameter, loci.p[node]));
     read_bodies();
     for (const auto& [kind, value] : scene_.root.entries) {
-      for (const Table* table : tables_of(value)) read_link(kind, *table);
+      const auto* array = std::get_if<Array>(&value.data);
+      if (array == nullptr) continue;
+      for (const Value& item : *array) {
+        if (const auto* table = std::get_if<Table>(&item.data)) read_link(kind, *table);
+      }
     }
   }
 
   Json data() const {
     if (carriers_.empty()) return nullptr;
-    Json list = Json::array();
-    for (const Carrier& carrier : carriers_)
-      list.push_back({{"name", carrier.name}, {"first", carrier.first}, {"body", carrier.body}});
-    return {{"carriers", list}, {"places", places_}, {"lines", lines_}};
+    return {{"carriers", carriers_}, {"places", places_}, {"lines", lines_}};
   }
 
  private:
-  static std::vector<const Table*> tables_of(const Value& value) {
-    std::vector<const Table*> list;
-    if (const auto* array = std::get_if<Array>(&value.data)) {
-      for (const Value& item : *array) {
-        if (const auto* table = std::get_if<Table>(&item.data)) list.push_back(table);
-      }
-    }
-    return list;
-  }
-
   std::optional<std::size_t> carrier(const std::string& name) const {
     for (std::size_t i = 0; i < carriers_.size(); ++i) {
-      if (carriers_[i].name == name) return i;
+      if (carriers_[i]["name"] == name) return i;
     }
     return std::nullopt;
   }
@@ -156,7 +141,7 @@ class Figure {
   }
 
   Scene scene_;
-  std::vector<Carrier> carriers_;
+  Json carriers_;
   std::vector<std::vector<double>> values_;  ///< SI values of the parameters at every node
   std::map<std::string, std::size_t> markers_;
   Json places_ = Json::array();

@@ -1,5 +1,4 @@
 // The data of boundary files, stability maps and accuracy studies.
-#include <map>
 #include <span>
 
 #include "eigentrail/core/errors.hpp"
@@ -21,59 +20,40 @@ Json plane(const Hdf5File& file, const char* kind) {
           {"second", axis(file.text_attribute("second_parameter"))}};
 }
 
-/// The curves of a boundary file, sampled from its dense output.
-class BoundaryCurves {
- public:
-  explicit BoundaryCurves(const Hdf5File& file)
-      : shape_(file.shape("dense_output")),
-        dense_(file.read_real("dense_output")),
-        length_(file.read_real("step_length")),
-        step_curve_(file.read_integers("step_curve")),
-        step_point_(file.read_integers("step_point")),
-        others_(file.read_integers("other_unstable")) {
-    const bool fits = shape_.size() == 4 && shape_[0] == length_.size() && shape_[1] == 4 && shape_[2] == 2 &&
-                      shape_[3] >= 2 && step_curve_.size() == shape_[0] && step_point_.size() == shape_[0];
-    file.require_fit(fits, "dense_output");
-    for (std::size_t i = 0; i < length_.size(); ++i) steps_[step_curve_[i]].push_back(i);
+/// A step of a boundary, sampled: both parameters (`first`, `second`) and the eigenvalue (`real`, `imag`),
+/// and whether it bounds the stable region (`bounds`).
+Json step_data(const BoundaryStep& step, bool bounds) {
+  std::vector<double> first, second, real, imag;
+  for (int k = 0; k <= samples_per_step; ++k) {
+    const Eigen::Vector4d f = evaluate_step(step, static_cast<double>(k) / samples_per_step);
+    const Complex s = f[2] + std::sqrt(Complex(f[3]));
+    first.push_back(f[0]);
+    second.push_back(f[1]);
+    real.push_back(s.real());
+    imag.push_back(std::abs(s.imag()));
   }
+  return {{"first", first}, {"second", second}, {"real", real}, {"imag", imag}, {"bounds", bounds}};
+}
 
-  /// The steps of one curve. Each has samples of both parameters (`first`, `second`) and of the eigenvalue
-  /// (`real`, `imag`), and says whether it bounds the stable region (`bounds`).
-  Json steps(std::size_t curve) const {
-    Json list = Json::array();
-    const auto found = steps_.find(static_cast<std::int64_t>(curve));
-    if (found == steps_.end()) return list;
-    for (const std::size_t i : found->second) list.push_back(step(i));
-    return list;
+/// Adds the steps of a boundary file to its curves, from its dense output.
+void add_steps(const Hdf5File& file, Json& curves) {
+  const Shape shape = file.shape("dense_output");
+  const auto dense = file.read_real("dense_output"), length = file.read_real("step_length");
+  const auto curve = file.read_integers("step_curve"), points = file.read_integers("step_point"),
+             others = file.read_integers("other_unstable");
+  const bool fits = shape.size() == 4 && shape[0] == length.size() && shape[1] == 4 && shape[2] == 2 &&
+                    shape[3] >= 2 && curve.size() == shape[0] && points.size() == shape[0];
+  file.require_fit(fits, "dense_output");
+  for (std::size_t i = 0; i < length.size(); ++i) {
+    const auto of_curve = static_cast<std::size_t>(curve[i]), point = static_cast<std::size_t>(points[i]);
+    if (of_curve >= curves.size()) continue;
+    const bool known = points[i] >= 0 && point + 1 < others.size();
+    const BoundaryStep step =
+        boundary_step(length[i], dense.data() + i * 8 * shape[3], static_cast<Eigen::Index>(shape[3]));
+    curves[of_curve]["steps"].push_back(
+        step_data(step, known && others[point] == 0 && others[point + 1] == 0));
   }
-
- private:
-  Json step(std::size_t i) const {
-    const BoundaryStep here =
-        boundary_step(length_[i], dense_.data() + i * 8 * shape_[3], static_cast<Eigen::Index>(shape_[3]));
-    std::vector<double> first, second, real, imag;
-    for (int k = 0; k <= samples_per_step; ++k) {
-      const Eigen::Vector4d f = evaluate_step(here, static_cast<double>(k) / samples_per_step);
-      const Complex s = f[2] + std::sqrt(Complex(f[3]));
-      first.push_back(f[0]);
-      second.push_back(f[1]);
-      real.push_back(s.real());
-      imag.push_back(std::abs(s.imag()));
-    }
-    const auto point = static_cast<std::size_t>(step_point_[i]);
-    const bool known = step_point_[i] >= 0 && point + 1 < others_.size();
-    return {{"first", first},
-            {"second", second},
-            {"real", real},
-            {"imag", imag},
-            {"bounds", known && others_[point] == 0 && others_[point + 1] == 0}};
-  }
-
-  Shape shape_;
-  std::vector<double> dense_, length_;
-  std::vector<std::int64_t> step_curve_, step_point_, others_;
-  std::map<std::int64_t, std::vector<std::size_t>> steps_;  ///< the steps of every curve
-};
+}
 
 Json corners(const Hdf5File& file) {
   const auto kinds = file.read_texts("corner_kind");
@@ -98,17 +78,15 @@ Json boundary_data(const Hdf5File& file) {
   if (modes.size() != n || begins.size() != n || ends.size() != n || extent.size() != 4 * n)
     file.fail("the datasets of curves do not fit each other");
   data["curves"] = Json::array();
-  if (n > 0) {
-    const BoundaryCurves curves(file);
-    for (std::size_t i = 0; i < n; ++i) {
-      data["curves"].push_back({{"kind", kinds[i]},
-                                {"mode", modes[i]},
-                                {"begin", begins[i]},
-                                {"end", ends[i]},
-                                {"extent", std::span(extent).subspan(4 * i, 4)},
-                                {"steps", curves.steps(i)}});
-    }
+  for (std::size_t i = 0; i < n; ++i) {
+    data["curves"].push_back({{"kind", kinds[i]},
+                              {"mode", modes[i]},
+                              {"begin", begins[i]},
+                              {"end", ends[i]},
+                              {"extent", std::span(extent).subspan(4 * i, 4)},
+                              {"steps", Json::array()}});
   }
+  if (n > 0) add_steps(file, data["curves"]);
   data["corners"] = corners(file);
   data["window"] = {{"first", {file.text_attribute("option_from"), file.text_attribute("option_to")}},
                     {"second", {file.real_attribute("second_from"), file.real_attribute("second_to")}}};

@@ -39,9 +39,9 @@ class ShaftNodes {
     return result;
   }
 
-  std::vector<float> at_rest() const {
-    std::vector<float> result;
-    for (const double place : places_) result.insert(result.end(), {0.0F, 0.0F, static_cast<float>(place)});
+  std::vector<double> at_rest() const {
+    std::vector<double> result;
+    for (const double place : places_) result.insert(result.end(), {0.0, 0.0, place});
     return result;
   }
 
@@ -72,37 +72,29 @@ class ShaftNodes {
   std::vector<std::int64_t> numbers_, coordinates_;
 };
 
-std::size_t bytes_per_node(const LociFile& loci, std::size_t n) {
-  return loci.modes.size() * (2 * n * sizeof(std::int16_t)) + n * sizeof(float);
-}
-
 /// The points of the trace at which the page shows shapes: all of them if there are at most `room`. Otherwise
 /// those of events (at most room / 2 of them) and others spread evenly from the first point to the last.
 std::vector<std::size_t> chosen_nodes(const LociFile& loci, std::size_t room) {
   const std::size_t n = loci.n_nodes();
   std::set<std::size_t> chosen;
-  if (room >= n) {
-    for (std::size_t i = 0; i < n; ++i) chosen.insert(i);
-    return {chosen.begin(), chosen.end()};
-  }
   for (const LociEvent& event : loci.events) {
-    if (chosen.size() < room / 2) chosen.insert(static_cast<std::size_t>(event.node));
+    if (room < n && chosen.size() < room / 2) chosen.insert(static_cast<std::size_t>(event.node));
   }
-  const std::size_t others = room - chosen.size();
+  const std::size_t others = std::min(room, n) - chosen.size();
   for (std::size_t i = 0; i < others; ++i) chosen.insert(others < 2 ? 0 : i * (n - 1) / (others - 1));
   return {chosen.begin(), chosen.end()};
 }
 
 /// Appends the shape of one mode, scaled so that its largest component has the magnitude `whole`. All zeros
 /// if the mode does not exist.
-void append_shape(const Complex* shape, std::size_t n, std::vector<std::int16_t>& numbers) {
+void append_shape(const std::vector<Complex>& shape, std::vector<std::int16_t>& numbers) {
   double size = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (std::isfinite(std::abs(shape[i]))) size = std::max(size, std::abs(shape[i]));
+  for (const Complex component : shape) {
+    if (std::isfinite(std::abs(component))) size = std::max(size, std::abs(component));
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool known = size > 0.0 && std::isfinite(std::abs(shape[i]));
-    for (const double part : {shape[i].real(), shape[i].imag()})
+  for (const Complex component : shape) {
+    const bool known = size > 0.0 && std::isfinite(std::abs(component));
+    for (const double part : {component.real(), component.imag()})
       numbers.push_back(static_cast<std::int16_t>(known ? std::round(part / size * whole) : 0.0));
   }
 }
@@ -113,33 +105,26 @@ Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget&
   const std::size_t n = loci.coordinates.size();
   const ShaftNodes shafts(file);
   const std::size_t shown = shafts.empty() ? n : shafts.size();
-  const std::size_t room = budget.shapes / std::max<std::size_t>(bytes_per_node(loci, shown), 1);
+  const std::size_t bytes_per_node =
+      loci.modes.size() * 2 * shown * sizeof(std::int16_t) + shown * sizeof(float);
+  const std::size_t room = budget.shapes / std::max<std::size_t>(bytes_per_node, 1);
   if (room < 2 || n == 0) return nullptr;
   const std::vector<std::size_t> nodes = chosen_nodes(loci, room);
   std::vector<std::int16_t> numbers;
-  std::vector<float> equilibrium;
+  std::vector<double> equilibrium;
   for (const std::size_t node : nodes) {
     const std::vector<Complex> shapes = file.read_complex_row("mode_shape", node);
     if (shapes.size() != loci.modes.size() * n)
       throw InputError(loci.path + ": mode_shape does not fit the other datasets");
-    for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
-      if (shafts.empty()) {
-        append_shape(shapes.data() + mode * n, n, numbers);
-      } else {
-        append_shape(shafts.displacements(shapes.data() + mode * n, n).data(), shown, numbers);
-      }
-    }
-    if (!shafts.empty()) {
-      const std::vector<float> rest = shafts.at_rest();
-      equilibrium.insert(equilibrium.end(), rest.begin(), rest.end());
-      continue;
-    }
-    for (const double x : loci.equilibrium.row(static_cast<Eigen::Index>(node)))
-      equilibrium.push_back(static_cast<float>(x));
+    for (const Complex* shape = shapes.data(); shape < shapes.data() + shapes.size(); shape += n)
+      append_shape(shafts.empty() ? std::vector(shape, shape + n) : shafts.displacements(shape, n), numbers);
+    const auto row = loci.equilibrium.row(static_cast<Eigen::Index>(node));
+    const std::vector<double> rest = shafts.empty() ? std::vector(row.begin(), row.end()) : shafts.at_rest();
+    equilibrium.insert(equilibrium.end(), rest.begin(), rest.end());
   }
   return {{"nodes", nodes},
           {"shapes", base64(numbers)},
-          {"equilibrium", base64(equilibrium)},
+          {"equilibrium", base64<float>(equilibrium)},
           {"coordinates", shown},
           {"geometry", shafts.empty() ? geometry_data(loci, nodes) : shafts.geometry()}};
 }
