@@ -30,16 +30,6 @@ struct Outcome {
   std::vector<std::string> remarks;  ///< warnings for the user
 };
 
-/// A function p -> matrices that Python gives instead of the tables of the scene.
-struct FunctionSource {
-  pybind11::function call;  ///< p -> dict of M, C, K or E, A, which are Doubles
-  double tolerance = 0.0;   ///< of the entries
-  int max_calls = 0;
-  double resolution = 0.0;  ///< share of the range
-  std::vector<double> breaks;
-  std::vector<std::string> state_names;
-};
-
 /// Text in UTF-8; bytes that are none, as damaged files have them, become replacement characters.
 pybind11::object as_text(const std::string& text);
 

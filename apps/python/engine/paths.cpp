@@ -81,20 +81,6 @@ std::pair<Steps, Places> places(const RecordedPath& path, const Places& values) 
   return {steps, t};
 }
 
-/// The numbers of `evaluate`, while other threads of Python run.
-void fill(const RecordedPath& path, const std::int64_t* steps, const double* t, py::ssize_t n, Complex* s,
-          double* p) {
-  const py::gil_scoped_release released;
-  for (py::ssize_t i = 0; i < n; ++i, s += path.eigenvalues.cols()) {
-    const PathPosition place{static_cast<std::size_t>(steps[i]), t[i]};
-    const bool exists = place.step < path.steps.size();
-    p[i] = exists ? path.parameter_at(place) : nan;
-    Eigen::Map<ComplexVector> row(s, path.eigenvalues.cols());
-    row.setConstant(Complex(nan, nan));
-    if (exists) row = path.eigenvalues_at(place);
-  }
-}
-
 /// At t on steps (arrays of one shape): eigenvalues, with the modes as last dimension, and values of the
 /// parameter. NaN where a mode does not exist, and on step -1.
 std::pair<py::array_t<Complex>, Places> evaluate(const RecordedPath& path, const Steps& steps,
@@ -104,7 +90,19 @@ std::pair<py::array_t<Complex>, Places> evaluate(const RecordedPath& path, const
   shape.push_back(path.eigenvalues.cols());
   py::array_t<Complex> eigenvalues(shape);
   if (t.size() != steps.size()) throw InputError("expected as many places as steps");
-  fill(path, steps.data(), t.data(), t.size(), eigenvalues.mutable_data(), parameter.mutable_data());
+  Complex* s = eigenvalues.mutable_data();
+  double* p = parameter.mutable_data();
+  {
+    const py::gil_scoped_release released;
+    for (py::ssize_t i = 0; i < t.size(); ++i, s += path.eigenvalues.cols()) {
+      const PathPosition place{static_cast<std::size_t>(steps.data()[i]), t.data()[i]};
+      const bool exists = place.step < path.steps.size();
+      p[i] = exists ? path.parameter_at(place) : nan;
+      Eigen::Map<ComplexVector> row(s, path.eigenvalues.cols());
+      row.setConstant(Complex(nan, nan));
+      if (exists) row = path.eigenvalues_at(place);
+    }
+  }
   return {eigenvalues, parameter};
 }
 

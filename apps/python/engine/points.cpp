@@ -78,20 +78,13 @@ py::dict sensitivities(const Scene& scene, const Options& options, double value,
 std::string explanation(const Scene& scene, const Options& options, bool sensitivity) {
   char* text = nullptr;
   std::size_t size = 0;
-  std::FILE* to = open_memstream(&text, &size);
+  const auto free_text = [](char** allocated) { std::free(*allocated); };
+  const std::unique_ptr<char*, decltype(free_text)> owner(&text, free_text);
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> to(open_memstream(&text, &size), &std::fclose);
   if (to == nullptr) throw std::bad_alloc();
-  const auto taken = [&] {
-    std::fclose(to);
-    const std::unique_ptr<char, decltype(&std::free)> owner(text, &std::free);
-    return std::string(text, size);
-  };
-  try {
-    unlocked([&] { app::explain(to, prepare_trace(scene, options), options, sensitivity); });
-  } catch (...) {
-    (void)taken();
-    throw;
-  }
-  return taken();
+  unlocked([&] { app::explain(to.get(), prepare_trace(scene, options), options, sensitivity); });
+  to.reset();  // what was written is in `text` once the stream is closed
+  return {text, size};
 }
 
 /// Whether a critical speed keeps less than its margin from one of the ranges, or lies within it.

@@ -20,6 +20,12 @@ namespace py = pybind11;
 namespace eigentrail::python {
 namespace {
 
+/// A function p -> matrices that Python gives instead of the tables of the scene.
+struct FunctionSource {
+  py::function call;              ///< p -> dict of M, C, K or E, A, which are Doubles
+  FunctionFamilyOptions options;  ///< without the parameter and its range
+};
+
 /// What a user should know of a scene before its results.
 std::vector<std::string> remarks_on(const Scene& scene, const Model& model) {
   std::vector<std::string> remarks;
@@ -39,21 +45,6 @@ MatricesAt matrices_of(const std::map<std::string, Doubles>& returned) {
   return result;
 }
 
-FunctionFamilyOptions options_of(const FunctionSource& source, const Parameter& parameter,
-                                 const TraceOptions& trace) {
-  FunctionFamilyOptions options;
-  options.parameter = parameter.name;
-  options.unit = parameter.unit;
-  options.from = std::min(trace.from, trace.to);
-  options.to = std::max(trace.from, trace.to);
-  options.tolerance = source.tolerance;
-  options.max_calls = source.max_calls;
-  options.resolution = source.resolution;
-  options.breaks = source.breaks;
-  options.state_names = source.state_names;
-  return options;
-}
-
 TraceSetup prepare(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
                    Watch& watch) {
   if (!source) return prepare_trace(scene, options);
@@ -64,8 +55,11 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
           const py::gil_scoped_acquire acquired;
           return matrices_of(source->call(p).cast<std::map<std::string, Doubles>>());
         };
-        return std::make_unique<FunctionFamily>(call,
-                                                options_of(*source, parameters.at(trace.parameter), trace));
+        FunctionFamilyOptions family = source->options;
+        family.parameter = trace.parameter;
+        family.unit = parameters.at(trace.parameter).unit;
+        std::tie(family.from, family.to) = std::minmax(trace.from, trace.to);
+        return std::make_unique<FunctionFamily>(call, family);
       });
 }
 
@@ -158,7 +152,15 @@ void add_runs(py::module_& module) {
       .def_readonly("interrupted", &Outcome::interrupted)
       .def_readonly("remarks", &Outcome::remarks);
   py::class_<FunctionSource>(module, "FunctionSource")
-      .def(py::init<py::function, double, int, double, std::vector<double>, std::vector<std::string>>());
+      .def(py::init([](py::function call, double tolerance, int max_calls, double resolution,
+                       std::vector<double> breaks, std::vector<std::string> names) {
+        return FunctionSource{std::move(call),
+                              {.tolerance = tolerance,
+                               .max_calls = max_calls,
+                               .resolution = resolution,
+                               .breaks = std::move(breaks),
+                               .state_names = std::move(names)}};
+      }));
   module.def("trace", &run_trace);
   module.def("boundary", &run_boundary);
   module.def("stability_map", &run_map);
