@@ -152,15 +152,9 @@ struct Extent {
 
 /// The largest magnitude of an eigenvalue that is shown: see `beyond`.
 double largest_shown(const LociFile& loci) {
-  std::vector<double> sizes;
-  for (Eigen::Index i = 0; i < loci.eigenvalues.rows(); ++i) {
-    double size = 0.0;
-    for (const Complex s : loci.eigenvalues.row(i)) {
-      if (std::isfinite(std::abs(s))) size = std::max(size, std::abs(s));
-    }
-    sizes.push_back(size);
-  }
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  const auto finite = [](double size) { return std::isfinite(size) ? size : 0.0; };
+  Vector sizes = loci.eigenvalues.cwiseAbs().unaryExpr(finite).rowwise().maxCoeff();
+  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
   return std::max(beyond * sizes[sizes.size() / 2], std::numeric_limits<double>::min());
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <sstream>
 
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
@@ -37,11 +38,10 @@ Json modes_data(const LociFile& loci) {
 /// file does not have are left out.
 Json mode_numbers(const std::string& text, std::size_t n_modes) {
   Json list = Json::array();
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(';', at), text.size());
-    const int number = std::atoi(text.substr(at, end - at).c_str());
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ';');) {
+    const int number = std::atoi(part.c_str());
     if (number > 0 && static_cast<std::size_t>(number) <= n_modes) list.push_back(number - 1);
-    at = end + 1;
   }
   return list;
 }
@@ -63,10 +63,8 @@ Json events_data(const LociFile& loci) {
               {"modes", mode_numbers(event.modes, loci.modes.size())},
               {"value", event.value},
               {"node", event.node}};
-    if (loci.data_errors && std::isfinite(loci.data_errors->intervals[i].from)) {
-      const EventInterval& interval = loci.data_errors->intervals[i];
-      item["interval"] = {interval.from, interval.to};
-    }
+    if (loci.data_errors && std::isfinite(loci.data_errors->intervals[i].from))
+      item["interval"] = {loci.data_errors->intervals[i].from, loci.data_errors->intervals[i].to};
     list.push_back(std::move(item));
   }
   return list;

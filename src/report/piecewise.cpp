@@ -50,11 +50,7 @@ class Approximation {
  public:
   Approximation(const std::vector<double>& nodes, const std::function<Complex(std::size_t, double)>& value,
                 const PiecewiseOptions& options)
-      : nodes_(nodes),
-        value_(value),
-        options_(options),
-        places_(places(options.degree)),
-        length_(nodes.back() - nodes.front()) {}
+      : nodes_(nodes), value_(value), options_(options) {}
 
   std::vector<PiecewiseCurve> run() {
     halve({nodes_.front(), nodes_.back(), 0, nodes_.size() - 1});
@@ -147,8 +143,8 @@ class Approximation {
   const std::vector<double>& nodes_;
   const std::function<Complex(std::size_t, double)>& value_;
   const PiecewiseOptions& options_;
-  std::vector<double> places_;
-  double length_;
+  std::vector<double> places_ = places(options_.degree);
+  double length_ = nodes_.back() - nodes_.front();
   std::size_t halved_ = 0;
   std::vector<PiecewiseCurve> curves_;
 };

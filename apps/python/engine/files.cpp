@@ -67,25 +67,11 @@ py::dict as_python(const std::map<std::string, StoredArray>& attributes) {
   return result;
 }
 
-struct NamedDataset {
-  std::string name;
-  StoredArray array;
-  std::map<std::string, StoredArray> attributes;
-};
-
-std::vector<NamedDataset> datasets_in(const Hdf5File& file, std::vector<std::string> names) {
-  if (names.empty()) {
-    names = file.members("/");
-  } else {
-    names.push_back(file.text_attribute("parameter"));
-    std::erase_if(names, [&](const std::string& name) { return !file.has(name); });
-  }
-  std::vector<NamedDataset> datasets;
-  for (const std::string& name : names) {
-    if (std::optional<StoredArray> array = file.read(name))
-      datasets.push_back({name, std::move(*array), file.attributes(name)});
-  }
-  return datasets;
+std::vector<std::string> names_in(const Hdf5File& file, std::vector<std::string> names) {
+  if (names.empty()) return file.members("/");
+  names.push_back(file.text_attribute("parameter"));
+  std::erase_if(names, [&](const std::string& name) { return !file.has(name); });
+  return names;
 }
 
 /// The datasets of a file, {name: (array, attributes)}, and its attributes. The attribute DIMENSION_LIST of a
@@ -95,13 +81,16 @@ std::vector<NamedDataset> datasets_in(const Hdf5File& file, std::vector<std::str
 std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called,
                                         const std::vector<std::string>& names) {
   const std::string_view bytes = image;
-  std::vector<NamedDataset> datasets;
+  std::vector<std::tuple<std::string, StoredArray, std::map<std::string, StoredArray>>> datasets;
   std::map<std::string, StoredArray> attributes;
   {
     const py::gil_scoped_release released;
     const Hdf5File file = Hdf5File::from_image(called, bytes);
     attributes = file.attributes("/");
-    datasets = datasets_in(file, names);
+    for (const std::string& name : names_in(file, names)) {
+      if (std::optional<StoredArray> array = file.read(name))
+        datasets.emplace_back(name, std::move(*array), file.attributes(name));
+    }
   }
   py::dict result;
   for (const auto& [name, array, of_dataset] : datasets)

@@ -16,12 +16,8 @@ MatrixInMemory view_of(const Doubles& entries) {
     const py::gil_scoped_acquire acquired;
     delete array;
   };
-  return {entries.data(),
-          entries.shape(0),
-          entries.shape(1),
-          entries.shape(1),
-          1,
-          std::shared_ptr<py::object>(new py::object(entries), release)};
+  const std::shared_ptr<py::object> owner(new py::object(entries), release);
+  return {entries.data(), entries.shape(0), entries.shape(1), entries.shape(1), 1, owner};
 }
 
 using Arrays = std::map<std::string, std::map<std::string, Doubles>>;
@@ -44,10 +40,9 @@ Scene parse(std::string text, const std::string& path, const std::map<std::strin
 std::vector<std::tuple<std::string, std::string, double>> parameters(const Scene& scene) {
   const Vector values = scene.parameters.declared_values();
   std::vector<std::tuple<std::string, std::string, double>> result;
-  for (std::size_t i = 0; i < scene.parameters.size(); ++i) {
-    const Parameter& parameter = scene.parameters[i];
-    result.emplace_back(parameter.name, parameter.unit, values[static_cast<Eigen::Index>(i)]);
-  }
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i)
+    result.emplace_back(scene.parameters[i].name, scene.parameters[i].unit,
+                        values[static_cast<Eigen::Index>(i)]);
   return result;
 }
 

@@ -53,8 +53,6 @@ Interruption::operator bool() const {
 
 Watch::Watch(py::object progress) : progress_(std::move(progress)) {}
 
-Watch::~Watch() = default;
-
 bool Watch::operator()(double share, long count) {
   const std::lock_guard lock(mutex_);
   if (raised_ || interruption_) return false;

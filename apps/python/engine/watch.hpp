@@ -33,9 +33,6 @@ class Watch {
   /// `progress` is None or a function of the share that is done, 0 to 1, and a count. It is called ten times
   /// a second at most; an exception that it raises ends the computation.
   explicit Watch(pybind11::object progress);
-  ~Watch();
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
 
   /// Whether the computation shall go on.
   bool operator()(double share, long count);
