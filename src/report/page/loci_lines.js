@@ -2,7 +2,6 @@
 // Converts curves to polylines, with so many points that they look smooth at the present zoom.
 
 const LARGEST_CORNER = 0.25;  // largest distance in px of the curve from a chord
-const SAME_LINE = 0.3;        // points closer to a line than this, in px, are dropped
 
 /** The point { place, x, y, real } of a chart at a place; `real`: whether the eigenvalue is. */
 const pointOn = (stretch, project) => (place) => {
@@ -36,34 +35,7 @@ function drawnLine(stretch, project, view, spacing) {
     if (last) refine(last, next, 0); else line.push(next);
     last = next;
   }
-  return thinned(line, view, spacing);
-}
-
-/** Drops points that lie on the line between the points kept, unless these would be farther apart than `spacing`. */
-function thinned(line, view, spacing) {
-  const kept = [line[0]];
-  let first = 0;
-  for (let i = 2; i < line.length; ++i) {
-    if (!canSkip(line, first, i, view, spacing)) {
-      kept.push(line[i - 1]);
-      first = i - 1;
-    }
-  }
-  if (line.length > 1) kept.push(line[line.length - 1]);
-  return kept;
-}
-
-function canSkip(line, from, to, view, spacing) {
-  const a = line[from], b = line[to];
-  const dx = (b.x - a.x) * view.perX, dy = (b.y - a.y) * view.perY, length = Math.hypot(dx, dy);
-  if (length > spacing || to - from > 40) return false;
-  for (let i = from + 1; i < to; ++i) {
-    const mx = (line[i].x - a.x) * view.perX, my = (line[i].y - a.y) * view.perY;
-    const along = length > 0 ? (dx * mx + dy * my) / (length * length) : 0;
-    const off = Math.hypot(mx - along * dx, my - along * dy);
-    if (!(off < SAME_LINE) || along < -0.01 || along > 1.01) return false;
-  }
-  return true;
+  return line;
 }
 
 /**
