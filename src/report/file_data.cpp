@@ -15,12 +15,8 @@
 namespace eigentrail {
 namespace {
 
-std::string text_of(const Hdf5File& file, const std::string& name) {
-  return file.has_attribute(name) ? file.text_attribute(name) : "";
-}
-
 Json data_of_kind(const Hdf5File& file, const std::string& path, const ReportBudget& budget) {
-  const std::string format = text_of(file, "format");
+  const std::string format = file.has_attribute("format") ? file.text_attribute("format") : "";
   if (format == loci_format) return loci_data(read_loci(path), file, budget);
   for (const auto& [other, schema, data] :
        {std::tuple(boundary_format, boundary_schema_version, &boundary_data),
@@ -36,21 +32,17 @@ Json data_of_kind(const Hdf5File& file, const std::string& path, const ReportBud
 
 }  // namespace
 
-Json attributes_data(const Hdf5File& file) {
-  std::map<std::string, std::string> attributes = file.attribute_texts();
-  attributes.erase("scene");
-  attributes.erase("title");
-  return attributes;
-}
-
 Json file_data(const std::string& path, const ReportBudget& budget) {
   require_result_file(path);
   const Hdf5File file = Hdf5File::open(path);
   Json data = data_of_kind(file, path, budget);
   data["name"] = std::filesystem::path(path).filename().string();
-  data["title"] = text_of(file, "title");
-  data["scene"] = text_of(file, "scene");
-  data["attributes"] = attributes_data(file);
+  std::map<std::string, std::string> attributes = file.attribute_texts();  // in alphabetical order
+  for (const char* apart : {"title", "scene"}) {
+    data[apart] = attributes[apart];
+    attributes.erase(apart);
+  }
+  data["attributes"] = attributes;
   return data;
 }
 

@@ -23,9 +23,6 @@ struct ReportBudget {
 /// Reads a file of any kind. Throws InputError if it cannot be read or contains nothing to show.
 Json file_data(const std::string& path, const ReportBudget& budget);
 
-/// Root attributes as text, in alphabetical order.
-Json attributes_data(const Hdf5File& file);
-
 /// A loci file: curves, events, stable ranges, modes.
 Json loci_data(const LociFile& loci, const Hdf5File& file, const ReportBudget& budget);
 

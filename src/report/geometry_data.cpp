@@ -103,8 +103,8 @@ class Figure {
       list.push_back({place[0].evaluate<double>(values), place[1].evaluate<double>(values),
                       place[2].evaluate<double>(values)});
     }
-    const bool same = std::all_of(list.begin(), list.end(), [&](const Triple& at) { return at == list[0]; });
-    return same ? std::vector<Triple>{list[0]} : list;
+    if (std::adjacent_find(list.begin(), list.end(), std::not_equal_to<>()) == list.end()) list.resize(1);
+    return list;
   }
 
   /// Adds a place with coordinates in the axes of a carrier, or in the frame if there is none. Returns its

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+
+#include "model/rational_interpolant.hpp"
 
 namespace eigentrail {
 namespace {
@@ -28,22 +31,6 @@ std::vector<double> places(std::size_t degree) {
                 (1.0 - std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree))));
   }
   return u;
-}
-
-/// The polynomial through values at the Chebyshev-Lobatto points, by the barycentric formula. The weights are
-/// (-1)^j, halved at the ends.
-Complex interpolated(const std::vector<double>& places, const PieceValues& values, double u) {
-  Complex above = 0.0;
-  double below = 0.0;
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    const double distance = u - places[j];
-    if (distance == 0.0) return values[j];
-    const bool end = j == 0 || j + 1 == places.size();
-    const double weight = (j % 2 == 0 ? 1.0 : -1.0) * (end ? 0.5 : 1.0) / distance;
-    above += weight * values[j];
-    below += weight;
-  }
-  return above / below;
 }
 
 class Approximation {
@@ -80,8 +67,9 @@ class Approximation {
   /// Whether the polynomial through `values` is accurate at a place of the range.
   bool meets(const Range& range, const PieceValues& values, double place) const {
     const Complex exact = at(range, place);
+    const std::vector<double> basis = polynomial_.basis((place - range.from) / (range.to - range.from));
     const Complex error =
-        exact - interpolated(places_, values, (place - range.from) / (range.to - range.from));
+        exact - std::inner_product(values.begin(), values.end(), basis.begin(), Complex(0.0));
     return fits(exact) && std::abs(error.real()) <= options_.real_tolerance &&
            std::abs(error.imag()) <= options_.imag_tolerance;
   }
@@ -144,6 +132,8 @@ class Approximation {
   const std::function<Complex(std::size_t, double)>& value_;
   const PiecewiseOptions& options_;
   std::vector<double> places_ = places(options_.degree);
+  RationalInterpolant polynomial_{places_,
+                                  static_cast<int>(options_.degree)};  ///< of the degree of all places
   double length_ = nodes_.back() - nodes_.front();
   std::size_t halved_ = 0;
   std::vector<PiecewiseCurve> curves_;

@@ -131,8 +131,7 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
             return found
         except BaseException:
             stopped = True
-            for future in futures:
-                future.cancel()
+            pool.shutdown(wait=False, cancel_futures=True)
             raise
 
 
@@ -153,7 +152,8 @@ def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places:
     parameter = loci.attrs["parameter"]
     if parameter in names:
         raise SceneError(f"{parameter}: is the traced parameter; give it a range, {parameter}=(from, to), and sweep others")
-    at = _common_values([run.path for run in traced], points)
+    longest = max((run.path for run in traced), key=lambda path: abs(path[-1] - path[0]))
+    at = np.asarray(points, float) if np.ndim(points) > 0 else np.linspace(longest[0], longest[-1], int(points))
     n_modes = max(run.n_modes for run in traced)
     shape = tuple(len(values[name]) for name in names)
     parts = _in_order(shape, runs, [run.at(at, n_modes) for run in runs], n_modes)
@@ -172,13 +172,6 @@ def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places:
         long_name="least damping ratio", units="1")
     data.encoding[RUNS] = Runs(zip(places, [run.run for run in runs]))
     return data
-
-
-def _common_values(paths: Sequence[Any], points: Any) -> Any:
-    if np.ndim(points) > 0:
-        return np.asarray(points, float)
-    longest = max(paths, key=lambda path: abs(path[-1] - path[0]))
-    return np.linspace(longest[0], longest[-1], int(points))
 
 
 def _coordinate(name: str, values: Sequence[Any], loci: xarray.Dataset) -> tuple[Any, ...]:
@@ -205,12 +198,9 @@ def _in_order(shape: tuple[int, ...], runs: Sequence[Any], parts: Sequence[Any],
 
 
 def _before(i: int, shape: tuple[int, ...]) -> Optional[int]:
-    index = list(np.unravel_index(i, shape))
-    for axis in reversed(range(len(shape))):
-        if index[axis] > 0:
-            index[axis] -= 1
-            return int(np.ravel_multi_index(index, shape))
-    return None
+    index = np.unravel_index(i, shape)
+    axis = max((axis for axis in range(len(shape)) if index[axis] > 0), default=None)
+    return None if axis is None else i - int(np.prod(shape[axis + 1:]))
 
 
 def _assurance(before: _Traced, run: _Traced, n_modes: int) -> Any:

@@ -47,10 +47,7 @@ def _window(data, names):
         return [(float(data[name].min()), float(data[name].max())) for name in names]
     ends = []
     for name, (begin, end) in zip(names, (("option_from", "option_to"), ("second_from", "second_to"))):
-        try:
-            low, high = sorted((float(data.attrs[begin]), float(data.attrs[end])))
-        except (KeyError, ValueError):
-            low, high = (float(data[name].min()), float(data[name].max())) if data.sizes["point"] else (0.0, 1.0)
+        low, high = sorted((float(data.attrs[begin]), float(data.attrs[end])))
         ends.append((low - OUTSIDE * (high - low), high + OUTSIDE * (high - low)))
     return ends
 
