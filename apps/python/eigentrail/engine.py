@@ -1,19 +1,16 @@
 """The compiled engine, which computes, and reads files."""
 
-from typing import Any, Optional
-
-_found: Any = None
-_why: Optional[ImportError] = None
-try:
-    from . import _engine as _found  # type: ignore[attr-defined, no-redef]
-except ImportError as error:  # not compiled, or for another version of Python
-    _why = error
+from functools import cache
+from importlib import import_module
+from typing import Any
 
 
+@cache
 def engine() -> Any:
-    """The compiled module; an ImportError that says how to get it where it is missing."""
-    if _found is None:
+    """The compiled module; an ImportError that says how to get it where it is missing, or is for another version of Python."""
+    try:
+        return import_module("._engine", __package__)
+    except ImportError as error:
         raise ImportError(
             "this installation of eigentrail has no compiled engine for this Python, which computes and reads files: install the "
-            "Debian package, run `pip install .` in the sources, or put build/release/python on the PYTHONPATH") from _why
-    return _found
+            "Debian package, run `pip install .` in the sources, or put build/release/python on the PYTHONPATH") from error

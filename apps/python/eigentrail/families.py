@@ -20,27 +20,21 @@ class InMemory:
 
     function: Optional[Callable[[float], Mapping[str, Any]]] = None
     parameters: Mapping[str, Any] = {}
+    span: Optional[Range] = None  # the range where none is given
+    table: str  # of the scene, that names the file of the matrices
+    keys: Mapping[str, Any]  # others of this table; those that are empty are left out
+    datasets: Mapping[str, Any]  # of the file, by their names
 
     def __init__(self, labelled: Mapping[str, Any], parameter: Optional[str], unit: str, names: Optional[Iterable[Any]],
                  title: str):
         self.parameter, self.unit, self.title, self.names = parameter, unit, title, _texts(names)
         _require_names(self.names, labelled)
 
-    def _span(self) -> Optional[Range]:
-        """The range where none is given."""
-        return None
-
-    def _table(self, file: str) -> Mapping[str, Any]:
-        """The table of the scene that names the file of the matrices."""
-        raise NotImplementedError
-
-    def _datasets(self) -> Mapping[str, Any]:
-        """Those of this file, by their names."""
-        raise NotImplementedError
-
     def scene(self, parameter: str, span: Optional[Range], file: str = "family.h5") -> str:
         """The scene of the family as text (TOML); its matrices are in `file`."""
-        span, table, declared = span or self._span(), self._table(file), dict(self.parameters)
+        span, declared = span or self.span, dict(self.parameters)
+        keys = {name: value for name, value in self.keys.items() if value not in (None, [], {})}
+        table = {} if self.function is not None else {self.table: {"file": file, **keys}}
         if parameter not in declared and (self.unit or "matrix_family" not in table):
             begin = span[0] if span else 0.0
             declared[parameter] = {"value": begin, "unit": self.unit} if self.unit else begin
@@ -54,7 +48,7 @@ class InMemory:
 
         buffer = io.BytesIO()
         with h5py.File(buffer, "w") as file:
-            for name, values in self._datasets().items():
+            for name, values in self.datasets.items():
                 if matrices.is_sparse(values):
                     for part in ("data", "indices", "indptr"):
                         file[f"{name}/{part}"] = getattr(values, part)
@@ -133,6 +127,8 @@ class Family(InMemory):
         self.factors, self.parameters = dict(factors or {}), dict(parameters or {})
         self.function_tolerance, self.max_calls = function_tolerance, max_calls
         self.resolution, self.breaks = resolution, list(breaks)
+        self.table, self.keys = "matrix_family", {"factors": self.factors, "state_names": self.names}
+        self.datasets = {f"{key}/{name}": matrix for key, terms in self.matrices.items() for name, matrix in terms.items()}
 
     def __repr__(self) -> str:
         if self.function is not None:
@@ -163,18 +159,9 @@ class Family(InMemory):
             raise SceneError(f"{where}: {error}") from None
         return found
 
-    def _table(self, file: str) -> Mapping[str, Any]:
-        if self.function is not None:
-            return {}
-        return {"matrix_family": {"file": file, **({"factors": self.factors} if self.factors else {}),
-                                  **({"state_names": self.names} if self.names is not None else {})}}
-
-    def _datasets(self) -> Mapping[str, Any]:
-        return {f"{key}/{name}": matrix for key, terms in self.matrices.items() for name, matrix in terms.items()}
-
     def is_dense_polynomial(self) -> bool:
         """Whether the engine can take the matrices where they are: dense ones of powers only."""
-        return not (self.function or self.factors or any(map(matrices.is_sparse, self._datasets().values())))
+        return not (self.function or self.factors or any(map(matrices.is_sparse, self.datasets.values())))
 
 
 class Samples(InMemory):
@@ -203,23 +190,15 @@ class Samples(InMemory):
             raise TypeError("expected samples of matrices: A (and E), or K with M or C")
         self.samples = {key: matrices.samples(key, value, self.p.size) for key, value in given.items()}
         super().__init__({key: samples[0] for key, samples in self.samples.items()}, parameter, unit, names, title)
-        self.units, self.digits, self.kinks = _texts(units), digits, list(kinks)
+        self.span = (self.p.min(), self.p.max())
+        self.table, self.keys = "sampled_family", {"kinks": list(kinks), "digits": digits}
+        labels = {"state_names": self.names, "state_units": _texts(units)}
+        self.datasets = {"parameter": self.p, **self.samples, **{name: texts for name, texts in labels.items() if texts is not None}}
 
     def __repr__(self) -> str:
         size = next(iter(self.samples.values())).shape[-1]
         return self._described(f"{type(self).__name__} of {', '.join(self.samples)}, {size} x {size}, at {self.p.size} values "
                                f"from {self.p.min():g} to {self.p.max():g}")
-
-    def _span(self) -> Range:
-        return self.p.min(), self.p.max()
-
-    def _table(self, file: str) -> Mapping[str, Any]:
-        return {"sampled_family": {"file": file, **({"kinks": self.kinks} if self.kinks else {}),
-                                   **({} if self.digits is None else {"digits": self.digits})}}
-
-    def _datasets(self) -> Mapping[str, Any]:
-        labels = {"state_names": self.names, "state_units": self.units}
-        return {"parameter": self.p, **self.samples, **{name: texts for name, texts in labels.items() if texts is not None}}
 
 
 class StateSpace(Samples):

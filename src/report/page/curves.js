@@ -3,12 +3,8 @@
 
 /** Chebyshev-Lobatto points on [0, 1] and their barycentric weights. */
 function chebyshevPlaces(degree) {
-  const places = [], weights = [];
-  for (let j = 0; j <= degree; ++j) {
-    places.push(0.5 * (1 - Math.cos((Math.PI * j) / degree)));
-    weights.push((j % 2 ? -1 : 1) * (j === 0 || j === degree ? 0.5 : 1));
-  }
-  return { places, weights };
+  const places = Array.from({ length: degree + 1 }, (_, j) => 0.5 * (1 - Math.cos((Math.PI * j) / degree)));
+  return { places, weights: places.map((_, j) => (j % 2 ? -1 : 1) * (j === 0 || j === degree ? 0.5 : 1)) };
 }
 
 /** Number of the interval between ascending places that holds a place, by bisection; the first or the last one beyond them. */

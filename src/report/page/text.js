@@ -75,12 +75,4 @@ function axisName(axis) {
 }
 
 /** Groups of items with the same key, in the order of their first items. */
-function grouped(items, key) {
-  const groups = new Map();
-  for (const item of items) {
-    const name = JSON.stringify(key(item));
-    if (!groups.has(name)) groups.set(name, []);
-    groups.get(name).push(item);
-  }
-  return [...groups.values()];
-}
+const grouped = (items, key) => [...Map.groupBy(items, (item) => JSON.stringify(key(item))).values()];

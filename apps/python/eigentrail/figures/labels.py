@@ -56,23 +56,24 @@ class Room:
         if not (np.isfinite(px) and np.isfinite(py)):
             return False
         width, height = text_width(text, size) + GAP, HEIGHT * size
-        found = []
+        places = []
         for align, dx, dy in SIDES:
             left = px + (dx * distance if dx else -width / 2) - (width if align == "right" else 0)
             bottom = py + dy * (distance + height / 2 if not dx else 0.6 * height) - height / 2
-            box = (left, left + width, bottom, bottom + height)
-            if self.free(box):
-                cost = self.covered(box)
-                found.append((cost, box, Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py,
-                                               halo=cost > 0)))
-        return self._put_best(found)
+            places.append(((left, left + width, bottom, bottom + height),
+                           Label(x, y, text, colour, size, align, dx * distance, bottom + height / 2 - py)))
+        return self._put_best(places)
 
-    def _put_best(self, found):
-        """Puts the first one of those labels (cost, box, label) that cost least; whether there is one."""
-        for _, box, label in sorted(found, key=lambda one: one[0])[:1]:
+    def _put_best(self, places):
+        """Puts the first one of those labels (box, label) that are free and cover least; whether there is one."""
+        costs = [(self.covered(box), i) for i, (box, _) in enumerate(places) if self.free(box)]
+        if costs:
+            cost, best = min(costs)
+            box, label = places[best]
+            label.halo = cost > 0
             self.take(box)
             self._panel.items.append(label)
-        return bool(found)
+        return bool(costs)
 
     def on_line(self, xs, ys, text, size, colour, most=2):
         """Puts labels on the best of these places of a line (data coordinates), far from each other; whether one was free."""
@@ -91,13 +92,9 @@ class Room:
         """Puts a label left above a line that ends at the last place, as near to the end as the text covers no other line."""
         px, py = self._panel.place(xs, ys)
         width, height = text_width(text, size), HEIGHT * size
-        found = []
-        for at in range(len(px) - 1, int(0.5 * len(px)), -1):
-            box = (px[at] - 4 - width, px[at] - 4, py[at] + 1, py[at] + 1 + height)
-            if self.free(box):
-                cost = self.covered(box)
-                found.append((cost, box, Label(xs[at], ys[at], text, colour, size, "right", -4, 1 + height / 2, halo=cost > 0)))
-        self._put_best(found)
+        self._put_best([((px[at] - 4 - width, px[at] - 4, py[at] + 1, py[at] + 1 + height),
+                         Label(xs[at], ys[at], text, colour, size, "right", -4, 1 + height / 2))
+                        for at in range(len(px) - 1, int(0.5 * len(px)), -1)])
 
 
 def _along(x, y):

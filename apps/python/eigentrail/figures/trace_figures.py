@@ -149,16 +149,11 @@ def ray_crossings(figure, modes, harmonics, source):
     found = []
     for n in harmonics:
         def excess(p, s, n=n):
-            return np.where(oscillates(s), np.abs(s.imag), np.nan) - n * np.interp(p, *_ascending(source))
+            return np.where(oscillates(s), np.abs(s.imag), np.nan) - n * np.interp(p, source.parameter, source.frequency)
         for mode, p, s in zip(*figure.curves.crossings(modes, excess)):
             if not any(abs(p - q) < 1e-6 * size and n == value for q, value in known):
                 found.append(("resonance", p, s, n, str(mode + 1)))
     return found
-
-
-def _ascending(source):
-    order = np.argsort(source.parameter)
-    return np.asarray(source.parameter, float)[order], np.asarray(source.frequency, float)[order]
 
 
 def root_locus_picture(loci, unit=None, size=None):

@@ -81,7 +81,6 @@ def _draw_panel(figure, panel):
     axes.spines[["top", "right"]].set_visible(False)
     for item in panel.items:
         _DRAWN[type(item)](axes, item)
-    return axes
 
 
 def _set_axis(axes, axis, which):
