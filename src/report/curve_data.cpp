@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -139,17 +140,6 @@ class ModeStretch {
   std::vector<Step> steps_;
 };
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  double range() const { return high > low ? high - low : 0.0; }
-};
-
 /// The largest magnitude of an eigenvalue that is shown: see `beyond`.
 double largest_shown(const LociFile& loci) {
   const auto finite = [](double size) { return std::isfinite(size) ? size : 0.0; };
@@ -159,19 +149,16 @@ double largest_shown(const LociFile& loci) {
 }
 
 PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, double largest) {
-  Extent real, imag, size;
+  Eigen::AlignedBox3d seen;  // of the real part, the imaginary part and the magnitude
   for (std::size_t i = 0; i < mode.n_steps(); ++i) {
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       const Complex s = mode(i, t);
-      if (!(std::abs(s) <= largest)) continue;
-      real.add(s.real());
-      imag.add(s.imag());
-      size.add(std::abs(s));
+      if (std::abs(s) <= largest) seen.extend(Eigen::Vector3d(s.real(), s.imag(), std::abs(s)));
     }
   }
-  const double least = std::max(known_share * size.high, std::numeric_limits<double>::min());
-  return {close.degree, std::max(close.share * real.range(), least),
-          std::max(close.share * imag.range(), least), largest};
+  const double least = std::max(known_share * seen.max()[2], std::numeric_limits<double>::min());
+  const Eigen::Vector3d range = close.share * seen.sizes();
+  return {close.degree, std::max(range[0], least), std::max(range[1], least), largest};
 }
 
 /// The values as integers of 32 bits: value = middle + unit * integer, for real and imaginary parts

@@ -29,13 +29,12 @@ namespace {
 py::dict import_files(const std::string& format, const std::vector<std::string>& files,
                       const std::map<std::string, std::string>& options, const std::string& folder) {
   Imported imported;
-  std::string scene;
   {
     const py::gil_scoped_release released;
     imported = importer(format).read({files, options});
-    scene = write_import(imported, folder, "model", true);
+    write_import(imported, folder, "model", true);
   }
-  return py::dict("scene"_a = scene, "title"_a = imported.title, "parameter"_a = imported.parameter,
+  return py::dict("title"_a = imported.title, "parameter"_a = imported.parameter,
                   "understood"_a = imported.understood, "warnings"_a = imported.warnings);
 }
 
@@ -67,19 +66,12 @@ py::dict as_python(const std::map<std::string, StoredArray>& attributes) {
   return result;
 }
 
-std::vector<std::string> names_in(const Hdf5File& file, std::vector<std::string> names) {
-  if (names.empty()) return file.members("/");
-  names.push_back(file.text_attribute("parameter"));
-  std::erase_if(names, [&](const std::string& name) { return !file.has(name); });
-  return names;
-}
-
 /// The datasets of a file, {name: (array, attributes)}, and its attributes. The attribute DIMENSION_LIST of a
-/// dataset has the names of its dimensions. `names`: only those of them that the file has, and the traced
-/// parameter; empty: all. Other threads of Python run while the file is read. Throws InputError if the file,
-/// called `called`, is no HDF5 file or damaged.
+/// dataset has the names of its dimensions. `names`: only these, and the traced parameter; empty: all. Other
+/// threads of Python run while the file is read. Throws InputError if the file, called `called`, is no HDF5
+/// file or damaged.
 std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called,
-                                        const std::vector<std::string>& names) {
+                                        std::vector<std::string> names) {
   const std::string_view bytes = image;
   std::vector<std::tuple<std::string, StoredArray, std::map<std::string, StoredArray>>> datasets;
   std::map<std::string, StoredArray> attributes;
@@ -87,7 +79,11 @@ std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::strin
     const py::gil_scoped_release released;
     const Hdf5File file = Hdf5File::from_image(called, bytes);
     attributes = file.attributes("/");
-    for (const std::string& name : names_in(file, names)) {
+    if (names.empty())
+      names = file.members("/");
+    else
+      names.push_back(file.text_attribute("parameter"));
+    for (const std::string& name : names) {
       if (std::optional<StoredArray> array = file.read(name))
         datasets.emplace_back(name, std::move(*array), file.attributes(name));
     }

@@ -107,13 +107,9 @@ const isAtEdge = (point, view) => (view.x[1] - point.x) * view.perX < 30;
 
 /** Names at the right ends of lines, one column beside the chart. */
 function nameTrace(lines, style, view, nameOf) {
-  const { fromY, toY, area } = viewPixels(view);
+  const { fromX, fromY, area } = viewPixels(view);
   const ends = lineEnds(lines, view).filter(({ point }) => isAtEdge(point, view));
   const heights = spreadLabels(ends.map(({ point }) => fromY(point.y)), LABEL_HEIGHT, area.top, area.bottom);
-  const list = ends.map(({ line }, i) => ({ line, height: heights[i] })).filter(({ height }) => height !== null);
-  return {
-    x: list.map(() => view.x[1]), y: list.map(({ height }) => toY(height)), type: "scatter", mode: "text", textposition: "middle right", cliponaxis: false,
-    text: list.map(({ line }) => ` ${plotText(nameOf(line))}`), textfont: { color: list.map(({ line }) => style(line.file, line.mode).colour), size: 11.5 },
-    hoverinfo: "skip", showlegend: false, xaxis: "x", yaxis: "y", meta: { labels: "modes" },
-  };
+  const list = ends.map(({ line }, i) => ({ x: fromX(view.x[1]), y: heights[i], text: ` ${nameOf(line)}`, size: 11.5, colour: style(line.file, line.mode).colour }));
+  return { ...labelTrace(list.filter(({ y }) => y !== null), view, { xaxis: "x", yaxis: "y" }, "modes"), textposition: "middle right" };
 }

@@ -111,8 +111,8 @@ function bandTraces(lines, isActive, style, axes, scale, logarithmic) {
     const add = ({ x, y, place }, step) => {
       const error = errors[step] * scale(line.file.path.eigenvalue(line.mode, place));
       if (!Number.isFinite(error)) return;
-      above.push([x, shifted(y, error)]);
-      below.push([x, shifted(y, -error)]);
+      above.push({ x, y: shifted(y, error) });
+      below.push({ x, y: shifted(y, -error) });
     };
     for (let i = 0; i + 1 < line.points.length; ++i) {
       const step = line.file.path.stepOf(0.5 * (line.points[i].place + line.points[i + 1].place));
@@ -120,9 +120,8 @@ function bandTraces(lines, isActive, style, axes, scale, logarithmic) {
       add(line.points[i + 1], step);
     }
     const outline = above.concat(below.reverse());
-    if (!outline.length) continue;
-    traces.push({ x: outline.map(([x]) => x), y: outline.map(([, y]) => y), type: "scatter", mode: "lines", fill: "toself", line: { width: 0 },
-      fillcolor: faded(style(line.file, line.mode).colour), hoverinfo: "skip", showlegend: false, meta: { band: line.mode }, ...axes });
+    if (outline.length)
+      traces.push(lineTrace([outline], { width: 0 }, { fill: "toself", fillcolor: faded(style(line.file, line.mode).colour), meta: { band: line.mode }, ...axes }));
   }
   return traces;
 }
@@ -135,8 +134,8 @@ function intervalTrace(files, chart, settings, isActive, axes) {
     const [, y] = eventPoint(event, chart, settings);
     return event.interval.map((x) => ({ x, y }));
   }));
-  return bars.length ? [{ ...joined(bars), type: "scatter", mode: "lines+markers", line: { color: INK, width: 1.4 }, marker: { symbol: "line-ns-open", size: 9, color: INK },
-    hoverinfo: "skip", showlegend: false, meta: { intervals: true }, ...axes }] : [];
+  const marker = { symbol: "line-ns-open", size: 9, color: INK };
+  return bars.length ? [lineTrace(bars, { color: INK, width: 1.4 }, { mode: "lines+markers", marker, meta: { intervals: true }, ...axes })] : [];
 }
 
 /** A few marks on every line, by which lines can be distinguished without colours. */
@@ -156,18 +155,13 @@ const STRIP_OPACITY = { stable: 1, marginal: 0.4, undecided: 0.15 };
 
 /** Shaded stable ranges of the parameter: of the whole height for one file, a strip at the top for each of several files. */
 function rangeShapes(files) {
-  const shapes = [];
-  files.forEach((file, row) => {
-    for (const range of file.data.ranges || []) {
-      const colour = range.whole_model ? RANGE_COLOURS[range.kind] : PARTIAL_COLOUR;
-      const several = files.length > 1;
-      const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: STRIP_OPACITY[range.kind] }
-        : { y0: 0, y1: 1, fillcolor: colour };
-      for (const axis of several ? ["y"] : ["y", "y2"])
-        shapes.push({ type: "rect", xref: "x", yref: `${axis} domain`, x0: range.from.parameter, x1: range.to.parameter, line: { width: 0 }, layer: "below", ...strip });
-    }
-  });
-  return shapes;
+  const several = files.length > 1;
+  return files.flatMap((file, row) => (file.data.ranges || []).flatMap((range) => {
+    const strip = several ? { y0: 1.006 + row * 0.018, y1: 1.019 + row * 0.018, fillcolor: file.colour, opacity: STRIP_OPACITY[range.kind] }
+      : { y0: 0, y1: 1, fillcolor: range.whole_model ? RANGE_COLOURS[range.kind] : PARTIAL_COLOUR };
+    return (several ? ["y"] : ["y", "y2"]).map((axis) =>
+      ({ type: "rect", xref: "x", yref: `${axis} domain`, x0: range.from.parameter, x1: range.to.parameter, line: { width: 0 }, layer: "below", ...strip }));
+  }));
 }
 
 /** Lines of the harmonics n times the excitation frequency. */
@@ -178,10 +172,8 @@ function rayTraces(files, settings) {
   // Rays from rest are curved on a logarithmic axis, most near their beginnings.
   const n = settings.logarithmic ? 240 : 64, power = settings.logarithmic ? 3 : 1;
   const x = Array.from({ length: n + 1 }, (_, i) => from + (to - from) * (i / n) ** power), frequency = x.map((p) => excitationAt(excitation, p));
-  return settings.harmonics.map((harmonic) => ({
-    x, y: frequency.map((value) => onFrequencyAxis(harmonic * value * settings.unitFactor, settings)), type: "scatter", mode: "lines",
-    hoverinfo: "skip", showlegend: false, line: { color: "#666", width: 1.2, dash: "2px,3px" }, xaxis: "x", yaxis: "y", meta: { harmonic },
-  }));
+  return settings.harmonics.map((harmonic) => lineTrace([], { color: "#666", width: 1.2, dash: "2px,3px" },
+    { x, y: frequency.map((value) => onFrequencyAxis(harmonic * value * settings.unitFactor, settings)), xaxis: "x", yaxis: "y", meta: { harmonic } }));
 }
 
 /** Operating ranges (between lines) and the strips beside them that critical speeds must not enter, in the frequency chart. */
@@ -194,8 +186,7 @@ function operatingShapes(files, crossings) {
 
 /** The root locus coloured by the parameter: one trace per colour, and one for the colour scale. */
 function parameterTraces(lines, isActive, range) {
-  const traces = [];
-  traces.push(...underTraces(lines, isActive, {}));
+  const traces = underTraces(lines, isActive, {});
   for (const backward of [false, true]) {
     const bins = Array.from({ length: PARAMETER_COLOURS }, () => []);
     for (const line of lines.filter(isActive)) {
@@ -227,11 +218,8 @@ function parameterColour(share) {
 
 function parameterScale(range, title) {
   const colorscale = Array.from({ length: 17 }, (_, i) => [i / 16, parameterColour(i / 16)]);
-  return {
-    x: [null], y: [null], type: "scatter", mode: "markers", hoverinfo: "skip", showlegend: false,
-    marker: { color: [range[0]], cmin: range[0], cmax: range[1], colorscale, showscale: true,
-      colorbar: { title: { text: title, side: "right" }, thickness: 12, outlinewidth: 0, len: 0.9, x: 1.02, xpad: 4, exponentformat: "power", minexponent: 4 } },
-  };
+  const colorbar = { title: { text: title, side: "right" }, thickness: 12, outlinewidth: 0, len: 0.9, x: 1.02, xpad: 4, exponentformat: "power", minexponent: 4 };
+  return pointTrace([{ x: null, y: null }], { color: [range[0]], cmin: range[0], cmax: range[1], colorscale, showscale: true, colorbar });
 }
 
 const endPoints = (lines, isActive) => lines.filter(isActive).flatMap(({ points }) => [points[0], points[points.length - 1]]);

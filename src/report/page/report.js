@@ -4,15 +4,12 @@
 const PAPER = { width: "690px", height: "480px" };
 
 function summary(file) {
-  const { attributes } = file;
-  if (file.kind === "loci") {
-    const { parameter, curves } = file, nodes = float64(curves.nodes.parameter);
-    return `${file.name}: ${parameter.name} ${number(nodes[0], 8)} → ${withUnit(number(nodes[nodes.length - 1], 8), parameter.unit)}, ` +
-      `${nodes.length} points, ${file.modes.length} modes, tolerance ${attributes.tolerance || "?"}, ${attributes.status || "status unknown"}` +
-      `${attributes.message ? `: ${attributes.message}` : ""}`;
-  }
+  const { attributes } = file, message = attributes.message ? `: ${attributes.message}` : "";
   const what = { boundary: "stability boundary", map: "stability map", accuracy: "accuracy study" }[file.kind];
-  return `${file.name}: ${what}${attributes.status ? `, ${attributes.status}` : ""}${attributes.message ? `: ${attributes.message}` : ""}`;
+  if (what) return `${file.name}: ${what}${attributes.status ? `, ${attributes.status}` : ""}${message}`;
+  const { parameter, curves } = file, nodes = float64(curves.nodes.parameter);
+  return `${file.name}: ${parameter.name} ${number(nodes[0], 8)} → ${withUnit(number(nodes[nodes.length - 1], 8), parameter.unit)}, ` +
+    `${nodes.length} points, ${file.modes.length} modes, tolerance ${attributes.tolerance || "?"}, ${attributes.status || "status unknown"}${message}`;
 }
 
 /** Changes the width of the figures from that of the window to that of the sheet while the page is printed. */
