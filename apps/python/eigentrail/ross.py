@@ -35,7 +35,8 @@ def from_ross(rotor: Any, speeds: Any = None, *, probes: Sequence[Any] = (), tit
     tables = [np.asarray(table, float) for table in _tables(rotor)]
     gyroscopic = np.asarray(rotor.G())
     stiffening = [] if getattr(rotor, "Kst", None) is None else [np.asarray(rotor.Kst())]  # times the speed; none in most versions
-    labels: dict[str, Any] = dict(parameter="speed", unit="rad/s", names=names, title=title or _title(rotor))
+    labels: dict[str, Any] = dict(parameter="speed", unit="rad/s", names=names,
+                                  title=title or str(getattr(rotor, "tag", None) or "rotor of ROSS"))
 
     def matrices(speed: float) -> tuple[Any, Any, Any]:
         return (_mass(rotor, speed), np.asarray(rotor.C(speed)) + speed * gyroscopic,
@@ -131,7 +132,3 @@ def _compare(rotor: Any, speed: float, M: Any, C: Any, K: Any) -> None:
         if not difference <= AGREE:
             raise SceneError(f"the {name} at {speed:g} rad/s differs from that of rotor.A by {difference:.1e}: this version of "
                              "ROSS builds its state matrix in another way; give the matrices as a Family")
-
-
-def _title(rotor: Any) -> str:
-    return str(getattr(rotor, "tag", None) or "rotor of ROSS")

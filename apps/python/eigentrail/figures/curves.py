@@ -41,8 +41,9 @@ class Curves:
         step = self.step[1:]
         certified = self._loci.certified.values[step, mode]
         style = np.where(certified == 0, DASHED, SOLID)
-        if "whirl" in self._loci and {"mode"} < set(self._loci.whirl.dims):
-            style[self._whirl(mode)[1:] < -ROUND] = DOTTED
+        if "whirl" in self._loci:
+            whirl = self._loci.whirl.values[:, mode]  # at stored points
+            style[np.where(self.t < 0.5, whirl[self.step], whirl[self.step + 1])[1:] < -ROUND] = DOTTED
         return style
 
     def errors(self):
@@ -68,13 +69,6 @@ class Curves:
             before = (excess(*there(middle)) < 0) == (value[at, column] < 0)
             low, high = np.where(before, middle, low), np.where(before, high, middle)
         return mode, *there(0.5 * (low + high))
-
-    def _whirl(self, mode):
-        whirl = self._loci.whirl
-        values = whirl.isel(mode=mode).values
-        if whirl.dims[0] == "node":
-            return np.where(self.t < 0.5, values[self.step], values[self.step + 1])
-        return values[self.step]
 
     def _refine(self):
         steps = self._loci.sizes["step"]

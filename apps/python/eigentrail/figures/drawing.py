@@ -33,8 +33,7 @@ def excitation(loci):
 
 def geometry(loci, node):
     """Carriers (points and bodies), places on them and links between these at a stored point; None where there are none."""
-    found = _read(loci, node)
-    return found["geometry"] if found is not None else None
+    return (_read(loci, node) or {}).get("geometry")
 
 
 def _read(loci, node):

@@ -39,8 +39,8 @@ def shape_picture(loci, value, mode, view="3D", size=None):
     shape = shape / shape[np.abs(shape).argmax()]
     if "shaft_coordinate" in loci:
         return _bent_shafts(loci, shape, title, size)
-    figure = _Carriers.of(loci, node)
-    if figure is None:
+    figure = _Carriers(loci, node)
+    if not figure.names:
         return _bars(loci, shape, title, size)
     if figure.axis is not None:
         return _bent_axis(figure, shape, title, size)
@@ -65,22 +65,16 @@ def _title(loci, node, column):
 class _Carriers:
     """Points and bodies of a scene at a stored point, with the places on them and the links between these."""
 
-    def __init__(self, carriers, places, lines, equilibrium):
+    def __init__(self, loci, node):
+        found = geometry(loci, node) or {"carriers": _from_names(list(map(str, loci.coordinate.values))), "places": [], "lines": []}
+        carriers = found["carriers"]  # none if the coordinates are not those of points and bodies
         self.names, self.first, self.body = ([one[key] for one in carriers] for key in ("name", "first", "body"))
-        self.places = [(place["carrier"], np.array(place["at"][0], float)) for place in places]
-        self.lines = [(line["kind"], line["from"], line["to"]) for line in lines]
-        self._equilibrium = equilibrium
-        rest = self.at(np.zeros(len(equilibrium)))
+        self.places = [(place["carrier"], np.array(place["at"][0], float)) for place in found["places"]]
+        self.lines = [(line["kind"], line["from"], line["to"]) for line in found["lines"]]
+        self._equilibrium = loci.equilibrium.values[node]
+        rest = self.at(np.zeros(len(self._equilibrium)))
         self.rest = np.array([*rest[0], *rest[2]])
         self.axis = _common_axis(rest[0]) if len(carriers) >= ON_AN_AXIS else None
-
-    @classmethod
-    def of(cls, loci, node):
-        """None if the coordinates are not those of points and bodies."""
-        found = geometry(loci, node) or {"carriers": _from_names(list(map(str, loci.coordinate.values))), "places": [], "lines": []}
-        if not found["carriers"]:
-            return None
-        return cls(found["carriers"], found["places"], found["lines"], loci.equilibrium.values[node])
 
     def at(self, displacement):
         """Origins (k, 3), axes (k, 3, 3; rows) and places (j, 3) with a displacement of the coordinates added."""
