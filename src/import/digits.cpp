@@ -1,5 +1,6 @@
 #include "import/digits.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -18,21 +19,14 @@ constexpr int most_digits = 7;
 constexpr std::size_t fewest_entries = 20;
 constexpr double least_share = 0.6;
 
-/// Whether x, rounded to this many digits, is x.
-bool has_digits(double x, int digits) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.begin(), text.end(), x, std::chars_format::scientific, digits - 1).ptr;
-  double back = 0.0;
-  std::from_chars(text.data(), end, back);
-  return back == x;
-}
-
-/// The fewest digits to which x may have been rounded; 0 if it has more than `most_digits`.
+/// The fewest digits to which x may have been rounded, those of the shortest text that reads back as x; 0 if
+/// it has more than `most_digits`.
 int least_digits_of(double x) {
-  for (int digits = 1; digits <= most_digits; ++digits) {
-    if (has_digits(x, digits)) return digits;
-  }
-  return 0;
+  std::array<char, 32> text{};
+  std::to_chars(text.begin(), text.end(), x, std::chars_format::scientific);
+  const auto digits = std::count_if(text.begin(), std::find(text.begin(), text.end(), 'e'),
+                                    [](char c) { return '0' <= c && c <= '9'; });
+  return digits <= most_digits ? static_cast<int>(digits) : 0;
 }
 
 /// Empty for all.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/text_lines.hpp"
@@ -19,11 +19,6 @@ constexpr std::size_t large_width = 16;
 constexpr std::size_t line_width = 72;
 /// Largest number of a point in Nastran.
 constexpr long most_points = 100'000'000;
-
-/// The columns [begin, begin + width) of a line, as far as it has them.
-std::string_view columns_of_line(std::string_view line, std::size_t begin, std::size_t width) {
-  return begin < line.size() ? trimmed(line.substr(begin, width)) : std::string_view();
-}
 
 class DmigReader {
  public:
@@ -73,8 +68,7 @@ class DmigReader {
     if (!entry.empty() && entry.back() == '*') entry.remove_suffix(1);
     if (!equal_words(trimmed(entry), "DMIG")) return;
     const std::vector<std::string_view> fields = fields_of(line);
-    std::string name(fields[0]);
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const std::string name = upper_case(std::string(fields[0]));
     if (name.empty()) lines_.fail("DMIG without the name of a matrix");
     const auto found =
         std::find_if(matrices_.begin(), matrices_.end(), [&](const DmigMatrix& m) { return m.name == name; });
@@ -111,11 +105,9 @@ class DmigReader {
     const auto number = whole_number_of(point);
     const auto direction = component.empty() ? std::optional<long>(0) : whole_number_of(component);
     if (!number || *number < 1 || *number > most_points)
-      lines_.fail("expected the number of a point, found '" + printable(std::string(point.substr(0, 40))) +
-                  "'");
+      lines_.fail("expected the number of a point, found " + shown(point));
     if (!direction || *direction < 0 || *direction > 6)
-      lines_.fail("expected a component from 0 to 6, found '" +
-                  printable(std::string(component.substr(0, 40))) + "'");
+      lines_.fail("expected a component from 0 to 6, found " + shown(component));
     return {static_cast<std::int32_t>(*number), static_cast<std::int32_t>(*direction)};
   }
 
@@ -127,8 +119,8 @@ class DmigReader {
       const DmigFreedom row = freedom(fields[i], fields[i + 1]);
       const auto value = number_of(fields[i + 2]);
       if (!value || !std::isfinite(*value))
-        lines_.fail("matrix " + printable(matrix.name) + ": expected a finite number, found '" +
-                    printable(std::string(fields[i + 2].substr(0, 40))) + "'");
+        lines_.fail("matrix " + printable(matrix.name) + ": expected a finite number, found " +
+                    shown(fields[i + 2]));
       if (!matrix.fault.empty()) continue;
       if (++entries_ > limits::matrix_numbers)
         lines_.fail("more than " + std::to_string(limits::matrix_numbers) + " entries");

@@ -1,41 +1,15 @@
-#include <algorithm>
-
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "import/blade_files.hpp"
 #include "import/formats.hpp"
 #include "import/input_lines.hpp"
+#include "import/samples.hpp"
 #include "import/station_scene.hpp"
 #include "import/text_lines.hpp"
 
 namespace eigentrail {
 namespace {
-
-struct ElastoDynFiles {
-  std::optional<ElastoDynBlade> blade;
-  std::optional<ElastoDynRotor> rotor;
-};
-
-ElastoDynFiles read_files(const ImportRequest& request) {
-  ElastoDynFiles files;
-  for (const std::string& path : request.files) {
-    const std::string text = read_text_file(path);
-    if (names_value(text, "TipRad")) {
-      if (files.rotor) throw InputError(path + ": a second main file of ElastoDyn; give one");
-      files.rotor = parse_elastodyn_rotor(text, path);
-    } else {
-      if (files.blade) throw InputError(path + ": a second blade file; give one, of one blade");
-      files.blade = parse_elastodyn_blade(text, path);
-    }
-  }
-  if (!files.blade) {
-    if (files.rotor->blade_file.empty())
-      throw InputError(files.rotor->path + ": names no BldFile(1); give the blade file, too");
-    const std::string path = beside(files.rotor->path, files.rotor->blade_file);
-    files.blade = parse_elastodyn_blade(read_text_file(path), path);
-  }
-  return files;
-}
 
 std::vector<double> times(std::vector<double> values, double factor) {
   for (double& value : values) value *= factor;
@@ -59,15 +33,12 @@ std::string stations_of(const ElastoDynBlade& blade, std::vector<std::string>& w
     if (blade.columns.contains(name))
       columns.emplace_back(becomes.first, times(column(name), becomes.second));
   }
-  std::string unread;
+  std::vector<std::string> unread;
   for (const char* name : {"Alpha", "PrecrvRef", "PreswpRef", "FlpcgOf", "EdgcgOf", "FlpEAOf", "EdgEAOf"}) {
-    if (!blade.columns.contains(name)) continue;
-    const std::vector<double>& values = blade.columns.at(name);
-    if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; }))
-      unread += (unread.empty() ? "" : ", ") + std::string(name);
+    if (blade.columns.contains(name) && has_nonzero(blade.columns.at(name))) unread.emplace_back(name);
   }
   if (!unread.empty())
-    warnings.push_back("columns that are not zero are not read, as ElastoDyn does: " + unread);
+    warnings.push_back("columns that are not zero are not read, as ElastoDyn does: " + joined(unread));
   return csv_of(columns);
 }
 
@@ -87,39 +58,34 @@ void warn(const ElastoDynBlade& blade, std::vector<std::string>& warnings) {
 }
 
 Imported read_elastodyn(const ImportRequest& request) {
-  const ElastoDynFiles files = read_files(request);
+  const auto files =
+      read_blade_files(request.files, "ElastoDyn", "TipRad", parse_elastodyn_rotor, parse_elastodyn_blade);
   const ElastoDynBlade& blade = *files.blade;
+  const ElastoDynRotor rotor = files.main.value_or(ElastoDynRotor{});
   BladeScene scene;
-  const double known = files.rotor ? files.rotor->tip_radius - files.rotor->hub_radius : 0.0;
-  scene.hub_radius = number_option(request, "hub-radius", files.rotor ? files.rotor->hub_radius : 0.0);
-  scene.length = number_option(request, "length", known);
-  scene.precone = files.rotor ? files.rotor->precone : 0.0;
+  scene.hub_radius = number_option(request, "hub-radius", rotor.hub_radius, false);
+  scene.length = number_option(request, "length", rotor.tip_radius - rotor.hub_radius, false);
+  scene.precone = rotor.precone;
   if (!(scene.length > 0.0))
     throw InputError(blade.path +
                      ": a blade file of ElastoDyn has no length; give its main file, too, or --length "
                      "(TipRad - HubRad) and --hub-radius");
-  const double usual = files.rotor && files.rotor->rotor_speed > 0.0
-                           ? files.rotor->rotor_speed
-                           : usual_speed(scene.hub_radius + scene.length);
-  scene.largest_speed = number_option(request, "speed", usual);
-  if (!(scene.largest_speed > 0.0)) throw InputError("--speed: expected a positive number");
+  scene.largest_speed = speed_option(
+      request, rotor.rotor_speed > 0.0 ? rotor.rotor_speed : usual_speed(scene.hub_radius + scene.length));
   if (blade.damping[0] != 0.0)
     scene.blade_keys += "damping_flap = " + exact_text(blade.damping[0] / 100.0) + "\n";
   if (blade.damping[2] != 0.0)
     scene.blade_keys += "damping_lag = " + exact_text(blade.damping[2] / 100.0) + "\n";
 
-  Imported result;
-  result.title = "Blade of ElastoDyn";
-  result.parameter = "rotor_speed";
-  result.stations.emplace();
-  result.stations->csv = stations_of(blade, result.warnings);
-  result.stations->tables = tables_of(scene);
+  std::vector<std::string> warnings;
+  Imported result = blade_import("Blade of ElastoDyn", scene, stations_of(blade, warnings));
+  result.warnings = std::move(warnings);
   result.understood.push_back(std::to_string(blade.columns.at("BlFract").size()) + " stations on " +
                               short_text(scene.length) + " m from a hub radius of " +
                               short_text(scene.hub_radius) + " m; mass times " +
                               short_text(blade.mass_factor));
   result.understood.push_back("rotor speed 0 to " + short_text(scene.largest_speed) + " rpm");
-  if (!files.rotor && !request.options.contains("hub-radius"))
+  if (!files.main && !request.options.contains("hub-radius"))
     result.warnings.emplace_back(
         "the hub radius is taken as 0; give --hub-radius, or ElastoDyn's main file, too");
   warn(blade, result.warnings);

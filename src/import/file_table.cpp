@@ -51,8 +51,7 @@ class TableOfFiles {
 
   void read_titles(const std::vector<std::string>& cells) {
     if (cells.size() < 2)
-      lines_.fail("expected titles separated by commas, such as 'parameter, M, K'; found '" +
-                  printable(cells[0].substr(0, 40)) + "'");
+      lines_.fail("expected titles separated by commas, such as 'parameter, M, K'; found " + shown(cells[0]));
     std::string_view first = cells[0];
     const std::size_t bracket = first.find('[');
     if (bracket != std::string_view::npos && first.back() == ']') {
@@ -72,8 +71,7 @@ class TableOfFiles {
                   std::to_string(table_.columns.size() + 1));
     const auto value = number_of(cells[0]);
     if (!value || !std::isfinite(*value))
-      lines_.fail("expected a value of " + table_.parameter + ", found '" +
-                  printable(cells[0].substr(0, 40)) + "'");
+      lines_.fail("expected a value of " + table_.parameter + ", found " + shown(cells[0]));
     if (std::find(table_.values.begin(), table_.values.end(), *value) != table_.values.end())
       lines_.fail("the value " + exact_text(*value) + " of " + table_.parameter + " is there already");
     if (table_.values.size() == limits::samples)

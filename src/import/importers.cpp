@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <map>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
 #include "import/formats.hpp"
-#include "import/text_lines.hpp"
 
 namespace eigentrail {
 
@@ -31,8 +31,6 @@ const Importer& importer(const std::string& format) {
     if (one.format == format) return one;
     known.push_back(one.format);
   }
-  std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   std::string ending = lower_case(format);
   ending.erase(0, ending.find_last_of('.') + 1);
   const auto other = other_names.find(ending);
@@ -42,7 +40,7 @@ const Importer& importer(const std::string& format) {
   const std::string remedy = meant.empty() ? ""
                              : is_file     ? "; for this file: import " + meant + " " + format + " -o FOLDER"
                                            : "; did you mean '" + meant + "'?";
-  throw InputError("import: expected a format (" + list + "), found '" + format + "'" + remedy);
+  throw InputError("import: expected a format (" + joined(known) + "), found '" + format + "'" + remedy);
 }
 
 }  // namespace eigentrail

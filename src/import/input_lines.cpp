@@ -4,12 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "eigentrail/core/text.hpp"
-
 namespace eigentrail {
 namespace {
-
-constexpr std::size_t shown_characters = 40;  // of a word, in messages
 
 bool is_comment(std::string_view line) {
   return line.front() == '!' || line.front() == '#' || line.front() == '%';
@@ -29,10 +25,6 @@ std::vector<std::string_view> words_and_texts(std::string_view line) {
     if (end == std::string_view::npos) return words;
     line.remove_prefix(end);
   }
-}
-
-std::string shown(std::string_view word) {
-  return "'" + printable(std::string(word.substr(0, shown_characters))) + "'";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "import/text_lines.hpp"
@@ -82,8 +83,7 @@ void LinStates::find_frames() {
     rotating_.push_back(marked || parsed_[i].blade > 0);
   }
   const auto listed = [](const std::set<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : "; ") + name;
+    const std::string text = joined(names, "; ");
     constexpr std::size_t longest = 200;
     return text.size() > longest ? text.substr(0, longest) + " ..." : text;
   };

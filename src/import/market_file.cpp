@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/text_lines.hpp"
@@ -57,12 +58,10 @@ class MarketReader {
   }
 
   std::size_t one_of(std::string_view word, const std::vector<std::string>& known) {
-    std::string list;
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (equal_words(word, known[i])) return i;
-      list += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + known[i];
     }
-    lines_.fail("expected " + list + ", found '" + printable(std::string(word.substr(0, 40))) + "'");
+    lines_.fail("expected " + enumerated(known, " or ") + ", found " + shown(word));
   }
 
   /// The next line that is neither empty nor a comment.
@@ -86,8 +85,7 @@ class MarketReader {
     std::array<long, 3> sizes{};
     for (std::size_t i = 0; i < expected; ++i) {
       const auto number = whole_number_of(words[i]);
-      if (!number || *number < 0)
-        lines_.fail("expected a size, found '" + printable(std::string(words[i].substr(0, 40))) + "'");
+      if (!number || *number < 0) lines_.fail("expected a size, found " + shown(words[i]));
       sizes[i] = *number;
     }
     const auto [rows, columns, entries] = sizes;
@@ -125,15 +123,14 @@ class MarketReader {
   long index(std::string_view word, Eigen::Index count, const char* what) {
     const auto number = whole_number_of(word);
     if (!number || *number < 1 || *number > count)
-      lines_.fail("expected a " + std::string(what) + " from 1 to " + std::to_string(count) + ", found '" +
-                  printable(std::string(word.substr(0, 40))) + "'");
+      lines_.fail("expected a " + std::string(what) + " from 1 to " + std::to_string(count) + ", found " +
+                  shown(word));
     return *number - 1;
   }
 
   double real(std::string_view word) {
     const auto value = number_of(word);
-    if (!value || !std::isfinite(*value))
-      lines_.fail("expected a finite number, found '" + printable(std::string(word.substr(0, 40))) + "'");
+    if (!value || !std::isfinite(*value)) lines_.fail("expected a finite number, found " + shown(word));
     return *value;
   }
 

@@ -59,15 +59,6 @@ class MarketImport {
   }
 
  private:
-  double number_option(const std::string& name, double otherwise) const {
-    const auto found = request_.options.find(name);
-    if (found == request_.options.end()) return otherwise;
-    const auto value = number_of(found->second);
-    if (!value || !std::isfinite(*value))
-      throw InputError("--" + name + ": expected a number, found '" + printable(found->second) + "'");
-    return *value;
-  }
-
   void refuse_options(std::initializer_list<const char*> names, const std::string& reason) const {
     for (const char* name : names) {
       if (request_.options.contains(name)) throw InputError("--" + std::string(name) + ": " + reason);
@@ -216,8 +207,8 @@ class MarketImport {
     result_.understood.push_back(std::to_string(n) + " states");
     family.state_names = state_names(n);
     family.parameter_unit = request_.option("unit");
-    family.from = number_option("from", 0.0);
-    family.to = number_option("to", 1.0);
+    family.from = number_option(request_, "from", 0.0, true);
+    family.to = number_option(request_, "to", 1.0, true);
     if (family.from == family.to) throw InputError("--to: equals --from; expected a range");
     if (!request_.options.contains("to"))
       result_.warnings.push_back("files of powers have no range of the parameter; the scene has " +

@@ -31,11 +31,6 @@ Fourier fourier(std::size_t n_blades, double azimuth) {
   return result;
 }
 
-void set(Matrix& whole, const std::vector<Eigen::Index>& rows, const std::vector<Eigen::Index>& columns,
-         const Matrix& part) {
-  whole(rows, columns) = part;
-}
-
 }  // namespace
 
 MultibladeTransformation multiblade(Eigen::Index n, const std::vector<BladeStates>& tuples, double azimuth,
@@ -43,14 +38,14 @@ MultibladeTransformation multiblade(Eigen::Index n, const std::vector<BladeState
   MultibladeTransformation result{Matrix::Identity(n, n), Matrix::Zero(n, n)};
   for (const BladeStates& tuple : tuples) {
     const Fourier f = fourier(tuple.states.size(), azimuth);
-    set(result.T, tuple.states, tuple.states, f.t);
-    set(result.derivative, tuple.states, tuple.states, f.first);
+    result.T(tuple.states, tuple.states) = f.t;
+    result.derivative(tuple.states, tuple.states) = f.first;
     if (tuple.rates.empty()) continue;
     // q' = t a' + rotor_speed t' a
-    set(result.T, tuple.rates, tuple.rates, f.t);
-    set(result.T, tuple.rates, tuple.states, rotor_speed * f.first);
-    set(result.derivative, tuple.rates, tuple.rates, f.first);
-    set(result.derivative, tuple.rates, tuple.states, rotor_speed * f.second);
+    result.T(tuple.rates, tuple.rates) = f.t;
+    result.T(tuple.rates, tuple.states) = rotor_speed * f.first;
+    result.derivative(tuple.rates, tuple.rates) = f.first;
+    result.derivative(tuple.rates, tuple.states) = rotor_speed * f.second;
   }
   return result;
 }

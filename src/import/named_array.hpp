@@ -1,13 +1,24 @@
 // An array with a name, as NumPy and MATLAB store it.
 #pragma once
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <string>
 #include <vector>
 
 namespace eigentrail {
+
+/// A number of so many bytes in memory, the lowest ones of `bits`: real ('f'), signed ('i') or unsigned.
+inline double stored_number(std::uint64_t bits, std::size_t bytes, char kind) {
+  if (kind == 'f' && bytes == 4) return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+  if (kind == 'f') return std::bit_cast<double>(bits);
+  const std::size_t unused = 64 - 8 * bytes;  // the sign is the highest of the other bits
+  return kind == 'i' ? static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused)
+                     : static_cast<double>(bits);
+}
 
 /// Numbers or texts. Entry (i, j, ...) stands at i strides[0] + j strides[1] + ...
 struct NamedArray {

@@ -6,13 +6,16 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <ranges>
 #include <set>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/digits.hpp"
 #include "import/openfast_states.hpp"
+#include "import/samples.hpp"
 #include "import/text_lines.hpp"
 
 namespace eigentrail {
@@ -20,9 +23,7 @@ namespace {
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
   if (shape.empty()) return "a single number";
-  std::string text;
-  for (const std::size_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
-  return text;
+  return joined(shape, " x ", [](std::size_t extent) { return std::to_string(extent); });
 }
 
 /// An array of two dimensions, or sample `i` along `axis` of one of three.
@@ -171,11 +172,7 @@ class ArrayReader {
     }
     data.A_error = matrices("A_error");
     if (samples_ > 0) return;
-    std::vector<std::string> names;
-    for (const NamedArray& array : arrays_) names.push_back(array.name);
-    std::string list;
-    for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i)
-      list += (i == 0 ? "" : ", ") + names[i];
+    const std::string list = joined(arrays_ | std::views::take(20), ", ", &NamedArray::name);
     fail("no matrices: expected arrays A (and E), or K with M or C; found " + (list.empty() ? "none" : list));
   }
 
@@ -306,11 +303,9 @@ class ArrayReader {
     const std::vector<std::string> found = candidates();
     if (samples_ == 1) return found.size() == 1 ? found[0] : "";
     if (found.size() == 1) return found[0];
-    std::string list;
-    for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
     fail(found.empty() ? "no values of a parameter: expected an array 'parameter' of " +
                              std::to_string(samples_) + " numbers, one per sample" + nearly_a_parameter()
-                       : "the parameter may be any of " + list + "; name it with --parameter");
+                       : "the parameter may be any of " + joined(found) + "; name it with --parameter");
   }
 
   /// What hinders arrays of one number per sample from being taken for the parameter; empty if there are
@@ -387,11 +382,7 @@ class ArrayReader {
 
   void describe() {
     const SampledData& data = result_.samples;
-    std::string matrices;
-    for (const SampledMatrix& named : sampled_matrices()) {
-      if (!(data.*named.samples).empty())
-        matrices += (matrices.empty() ? "" : ", ") + std::string(named.name);
-    }
+    const std::string matrices = matrices_in(data);
     const std::string size = std::to_string(data.size()) + " x " + std::to_string(data.size());
     const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
     if (samples_ > 1 || *least != 0.0)

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <ranges>
 #include <stdexcept>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -170,11 +172,9 @@ class NastranImport {
   }
 
   static std::string names_of(const std::vector<NastranMatrix>& all) {
-    std::string list;
     constexpr std::size_t most = 20;
-    for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
-      list += (i == 0 ? "found " : ", ") + printable(all[i].dense.name);
-    return list + (all.size() > most ? ", ..." : "");
+    const auto name = [](const NastranMatrix& one) { return printable(one.dense.name); };
+    return "found " + joined(all | std::views::take(most), ", ", name) + (all.size() > most ? ", ..." : "");
   }
 
   void add_sample(const PointFiles& point) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -20,9 +21,6 @@ struct ElementCode {
   char kind = 'f';
   std::size_t bytes = 8;
 };
-
-/// Of a number.
-using Bytes = std::array<char, 8>;
 
 class NpyReader {
  public:
@@ -99,15 +97,14 @@ class NpyReader {
     ElementCode code;
     code.swapped = text[1] == '>' && std::endian::native == std::endian::little;
     code.kind = text[2];
-    const auto parsed = std::from_chars(text.data() + 3, text.data() + text.size() - 1, code.bytes);
+    const auto bytes = parsed_number<std::size_t>(std::string_view(text).substr(3, text.size() - 4));
     if (code.kind == 'O')
       fail(
           "holds Python objects; save the array with a plain type, such as np.asarray(x, dtype=float) or "
           "dtype=str");
     if (code.kind == 'c') fail("is complex; expected real numbers");
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() - 1)
-      fail("unknown type " + shown);
-    if (code.kind == 'U') code.bytes *= 4;
+    if (!bytes) fail("unknown type " + shown);
+    code.bytes = code.kind == 'U' ? 4 * *bytes : *bytes;
     const bool known =
         (code.kind == 'f' && (code.bytes == 4 || code.bytes == 8)) ||
         ((code.kind == 'i' || code.kind == 'u') && std::has_single_bit(code.bytes) && code.bytes <= 8) ||
@@ -153,30 +150,12 @@ class NpyReader {
     return count;
   }
 
-  template <class T>
-  static double converted(const Bytes& element) {
-    T value;
-    std::memcpy(&value, element.data(), sizeof value);
-    return static_cast<double>(value);
-  }
-
   static double number(std::string_view stored, const ElementCode& code) {
-    Bytes element{};
+    std::array<char, 8> element{};
     std::copy(stored.begin(), stored.end(), element.begin());
     if (code.swapped)
       std::reverse(element.begin(), element.begin() + static_cast<std::ptrdiff_t>(code.bytes));
-    if (code.kind == 'f') return code.bytes == 4 ? converted<float>(element) : converted<double>(element);
-    const bool is_signed = code.kind == 'i';
-    switch (code.bytes) {
-      case 1:
-        return is_signed ? converted<std::int8_t>(element) : converted<std::uint8_t>(element);
-      case 2:
-        return is_signed ? converted<std::int16_t>(element) : converted<std::uint16_t>(element);
-      case 4:
-        return is_signed ? converted<std::int32_t>(element) : converted<std::uint32_t>(element);
-      default:
-        return is_signed ? converted<std::int64_t>(element) : converted<std::uint64_t>(element);
-    }
+    return stored_number(std::bit_cast<std::uint64_t>(element), code.bytes, code.kind);
   }
 
   /// Texts are filled up with zeros; U has four bytes per character.

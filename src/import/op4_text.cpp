@@ -1,9 +1,9 @@
 // OUTPUT4 as text: numbers in columns of fixed width, without blanks between them.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "import/op4.hpp"
 #include "import/text_lines.hpp"
@@ -42,8 +42,7 @@ class Op4TextReader {
  private:
   /// The whole number in some columns of a line.
   long whole(std::string_view line, std::size_t begin, std::size_t width) {
-    const std::string_view field =
-        begin < line.size() ? trimmed(line.substr(begin, width)) : std::string_view();
+    const std::string_view field = columns_of_line(line, begin, width);
     const auto number = whole_number_of(field);
     if (!number)
       lines_.fail("expected a whole number in columns " + std::to_string(begin + 1) + " to " +
@@ -68,8 +67,7 @@ class Op4TextReader {
     header_.form = whole(line, 2 * width, 8);
     header_.type = whole(line, 2 * width + 8, 8);
     const std::size_t name = 2 * width + 16;
-    if (line.size() > name) header_.name = trimmed(line.substr(name, 8));
-    for (char& c : header_.name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (line.size() > name) header_.name = upper_case(std::string(trimmed(line.substr(name, 8))));
     format_ = {};
     if (line.size() > name + 8) read_format(trimmed(line.substr(name + 8, line.find('|') - name - 8)));
     try {
@@ -157,8 +155,7 @@ class Op4TextReader {
     for (long i = 0; i < count; ++i) {
       if (i % per_line == 0) line = next_line();
       const std::size_t begin = static_cast<std::size_t>(i % per_line) * format_.width;
-      const std::string_view field =
-          begin < line.size() ? trimmed(line.substr(begin, format_.width)) : std::string_view();
+      const std::string_view field = columns_of_line(line, begin, format_.width);
       const auto value = number_of(field);
       if (!value || !std::isfinite(*value))
         lines_.fail("expected a finite number in columns " + std::to_string(begin + 1) + " to " +

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "import/formats.hpp"
@@ -84,19 +85,18 @@ class OpenFastImport {
  private:
   /// Wind speed, else rotor speed; or the operating value whose description has the text that is asked for.
   Parameter chosen_parameter() const {
-    const auto asked = request_.options.find("parameter");
-    if (asked != request_.options.end() && asked->second != "wind_speed" && asked->second != "rotor_speed")
-      return operating_value(asked->second);
+    const std::string asked = request_.option("parameter", "either");
+    if (asked != "either" && asked != "wind_speed" && asked != "rotor_speed") return operating_value(asked);
     Parameter wind{"wind_speed", "m/s", "wind speed", {}}, rotor{"rotor_speed", "rpm", "rotor speed", {}};
     for (const LinFile& file : files_) {
       if (file.wind_speed) wind.values.push_back(*file.wind_speed);
       rotor.values.push_back(file.rotor_speed * to_rpm);
     }
     const bool has_wind = wind.values.size() == files_.size();
-    if (asked != request_.options.end() && asked->second == "wind_speed" && !has_wind)
+    if (asked == "wind_speed" && !has_wind)
       throw InputError("openfast: not all files state a wind speed; use --parameter rotor_speed");
-    const bool want_rotor = asked != request_.options.end() && asked->second == "rotor_speed";
-    return want_rotor || !has_wind || (varies(rotor.values) && !varies(wind.values)) ? rotor : wind;
+    const bool rotor_varies = varies(rotor.values) && !varies(wind.values);
+    return asked == "rotor_speed" || !has_wind || rotor_varies ? rotor : wind;
   }
 
   static bool varies(const std::vector<double>& values) {

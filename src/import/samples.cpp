@@ -1,7 +1,9 @@
 #include "import/samples.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -17,6 +19,24 @@ std::string parameter_option(const ImportRequest& request, const std::string& ot
         "--parameter: expected a name, a letter and then letters, digits or underscores; found '" +
         printable(name) + "'");
   return name;
+}
+
+double number_option(const ImportRequest& request, const std::string& name, double otherwise, bool negative) {
+  const auto given = request.options.find(name);
+  if (given == request.options.end()) return otherwise;
+  const auto value = number_of(given->second);
+  if (!value || !std::isfinite(*value) || (*value < 0.0 && !negative))
+    throw InputError("--" + name + ": expected a number" + (negative ? "" : " that is not negative") +
+                     ", found '" + printable(given->second) + "'");
+  return *value;
+}
+
+std::string matrices_in(const SampledData& data) {
+  std::vector<std::string> names;
+  for (const SampledMatrix& named : sampled_matrices()) {
+    if (!(data.*named.samples).empty()) names.emplace_back(named.name);
+  }
+  return joined(names);
 }
 
 void finish_samples(Imported& imported, const ImportRequest& request, const std::string& file,

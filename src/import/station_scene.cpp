@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "eigentrail/core/errors.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
-#include "import/text_lines.hpp"
+#include "import/samples.hpp"
 
 namespace eigentrail {
+
+namespace {
 
 std::string tables_of(const BladeScene& scene) {
   std::string text = "[parameters]\nrotor_speed = { value = 0, unit = \"rpm\" }\n\n";
@@ -22,31 +24,33 @@ std::string tables_of(const BladeScene& scene) {
   return text + "elements = 12\n" + scene.blade_keys;
 }
 
+}  // namespace
+
+Imported blade_import(const std::string& title, const BladeScene& scene, const std::string& csv) {
+  Imported result;
+  result.title = title;
+  result.parameter = "rotor_speed";
+  result.stations = {tables_of(scene), csv};
+  return result;
+}
+
+double speed_option(const ImportRequest& request, double usual) {
+  const double speed = number_option(request, "speed", usual, false);
+  if (!(speed > 0.0)) throw InputError("--speed: expected a positive number");
+  return speed;
+}
+
 std::string csv_of(const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
-  std::string text;
-  for (const auto& [heading, values] : columns) text += (text.empty() ? "" : ", ") + heading;
-  text += "\n";
-  for (std::size_t i = 0; i < columns.front().second.size(); ++i) {
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      text += (k == 0 ? "" : ", ") + exact_text(columns[k].second[i]);
-    text += "\n";
-  }
+  using Column = std::pair<std::string, std::vector<double>>;
+  std::string text = joined(columns, ", ", &Column::first) + "\n";
+  for (std::size_t i = 0; i < columns.front().second.size(); ++i)
+    text += joined(columns, ", ", [i](const Column& one) { return exact_text(one.second[i]); }) + "\n";
   return text;
 }
 
 double usual_speed(double tip_radius) {
   constexpr double tip_speed = 80.0;  // m/s
   return std::max(0.1, std::round(10.0 * tip_speed / tip_radius * 30.0 / std::numbers::pi) / 10.0);
-}
-
-double number_option(const ImportRequest& request, const std::string& name, double otherwise) {
-  const auto given = request.options.find(name);
-  if (given == request.options.end()) return otherwise;
-  const auto value = number_of(given->second);
-  if (!value || !std::isfinite(*value) || *value < 0.0)
-    throw InputError("--" + name + ": expected a number that is not negative, found '" +
-                     printable(given->second) + "'");
-  return *value;
 }
 
 std::string beside(const std::string& path, const std::string& named) {

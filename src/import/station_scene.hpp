@@ -1,7 +1,14 @@
 // Scenes with a blade from the files of other programs.
 #pragma once
 
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
+#include "import/blade_files.hpp"
+#include "import/text_lines.hpp"
 
 namespace eigentrail {
 
@@ -14,19 +21,57 @@ struct BladeScene {
   std::string other_tables;               ///< further tables
 };
 
-/// Tables of the scene. The last one is [[blade]], to which the file of stations belongs.
-std::string tables_of(const BladeScene& scene);
+/// What is imported of a blade: the tables of its scene, the last of which is [[blade]], and the stations as
+/// text.
+Imported blade_import(const std::string& title, const BladeScene& scene, const std::string& csv);
+
+/// The largest rotor speed of the trace, rpm: the option `speed`, else the usual one. Throws InputError.
+double speed_option(const ImportRequest& request, double usual);
+
+/// A file that another one names, in the folder of that one.
+std::string beside(const std::string& path, const std::string& named);
+
+/// The main file and the blade file of a program.
+template <class Main, class Blade>
+struct BladeFiles {
+  std::optional<Main> main;
+  std::optional<Blade> blade;
+};
+
+/// Reads files of `program`, and a blade file that only the main file names. A main file has a value called
+/// `mark`. Throws InputError.
+template <class Main, class Blade>
+BladeFiles<Main, Blade> read_blade_files(const std::vector<std::string>& paths, const std::string& program,
+                                         std::string_view mark,
+                                         Main (*read_main)(std::string_view, const std::string&),
+                                         Blade (*read_blade)(std::string_view, const std::string&)) {
+  BladeFiles<Main, Blade> files;
+  for (const std::string& path : paths) {
+    const std::string text = read_text_file(path);
+    const bool is_main = names_value(text, mark);
+    if (is_main && files.main) throw InputError(path + ": a second main file of " + program + "; give one");
+    if (!is_main && files.blade) throw InputError(path + ": a second blade file; give one, of one blade");
+    if (is_main)
+      files.main = read_main(text, path);
+    else
+      files.blade = read_blade(text, path);
+  }
+  if (files.blade) return files;
+  if (files.main->blade_file.empty())
+    throw InputError(files.main->path + ": names no BldFile(1); give the blade file, too");
+  const std::string path = beside(files.main->path, files.main->blade_file);
+  files.blade = read_blade(read_text_file(path), path);
+  return files;
+}
+
+inline bool has_nonzero(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return value != 0.0; });
+}
 
 /// A table of stations: headings, then values by column.
 std::string csv_of(const std::vector<std::pair<std::string, std::vector<double>>>& columns);
 
 /// The rotor speed at which the tip moves with 80 m/s, as that of many turbines does, in rpm to one decimal.
 double usual_speed(double tip_radius);
-
-/// The option as a number; `otherwise` if it is not given. Throws InputError.
-double number_option(const ImportRequest& request, const std::string& name, double otherwise);
-
-/// A file that another one names, in the folder of that one.
-std::string beside(const std::string& path, const std::string& named);
 
 }  // namespace eigentrail

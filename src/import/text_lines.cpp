@@ -8,8 +8,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/plain_file.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 
 namespace eigentrail {
@@ -44,6 +46,15 @@ void TextLines::fail(const std::string& message) const {
   throw InputError(path_ + ":" + std::to_string(line_) + ": " + message);
 }
 
+std::string_view columns_of_line(std::string_view line, std::size_t begin, std::size_t width) {
+  return begin < line.size() ? trimmed(line.substr(begin, width)) : std::string_view();
+}
+
+std::string shown(std::string_view word) {
+  constexpr std::size_t most = 40;
+  return "'" + printable(std::string(word.substr(0, most))) + "'";
+}
+
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   while (true) {
@@ -64,11 +75,6 @@ std::string_view trimmed(std::string_view text) {
 bool equal_words(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 std::string count_of(std::size_t count, const std::string& what) {
@@ -92,10 +98,7 @@ std::optional<double> number_of(std::string_view word) {
 
 std::optional<long> whole_number_of(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  long value = 0;
-  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
-  return parsed.ec == std::errc() && parsed.ptr == word.data() + word.size() ? std::optional(value)
-                                                                             : std::nullopt;
+  return parsed_number<long>(word);
 }
 
 bool is_identifier(std::string_view name) {

@@ -27,13 +27,16 @@ class TextLines {
   int line_ = 0;
 };
 
+/// The columns [begin, begin + width) of a line, as far as it has them.
+std::string_view columns_of_line(std::string_view line, std::size_t begin, std::size_t width);
+/// The begin of a word in quotes, for messages.
+std::string shown(std::string_view word);
 /// Words between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
 std::string_view trimmed(std::string_view text);
 /// Whether both are equal but for upper and lower case.
 bool equal_words(std::string_view a, std::string_view b);
 
-std::string lower_case(std::string text);
 /// "1 file", "3 files".
 std::string count_of(std::size_t count, const std::string& what);
 

@@ -3,6 +3,7 @@
 #include <matio.h>
 
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -169,31 +170,13 @@ class MatReader {
   }
 
   static double number(matio_types type, const void* data, std::size_t i) {
-    const auto as = [&](auto zero) {
-      return static_cast<double>(static_cast<const decltype(zero)*>(data)[i]);
-    };
-    switch (type) {
-      case MAT_T_SINGLE:
-        return as(float{});
-      case MAT_T_INT8:
-        return as(std::int8_t{});
-      case MAT_T_UINT8:
-        return as(std::uint8_t{});
-      case MAT_T_INT16:
-        return as(std::int16_t{});
-      case MAT_T_UINT16:
-        return as(std::uint16_t{});
-      case MAT_T_INT32:
-        return as(std::int32_t{});
-      case MAT_T_UINT32:
-        return as(std::uint32_t{});
-      case MAT_T_INT64:
-        return as(std::int64_t{});
-      case MAT_T_UINT64:
-        return as(std::uint64_t{});
-      default:
-        return as(double{});
-    }
+    const std::size_t bytes = Mat_SizeOf(type);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, static_cast<const char*>(data) + i * bytes, bytes);
+    const bool is_real = type == MAT_T_DOUBLE || type == MAT_T_SINGLE;
+    const bool is_signed =
+        type == MAT_T_INT8 || type == MAT_T_INT16 || type == MAT_T_INT32 || type == MAT_T_INT64;
+    return stored_number(bits, bytes, is_real ? 'f' : is_signed ? 'i' : 'u');
   }
 
   /// In damaged files, the type of the elements does not fit the memory that the library has filled.

@@ -30,15 +30,17 @@ bool continues_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
+bool is_binary(Op op) {
+  return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::power;
+}
+
 /// Largest number of values on the stack during evaluation of postfix code.
 int stack_depth(const std::vector<Expression::Instruction>& code) {
   int depth = 0;
   int most = 0;
   for (const Expression::Instruction& i : code) {
     const bool pushes = i.op == Op::number || i.op == Op::parameter;
-    const bool binary = i.op == Op::add || i.op == Op::subtract || i.op == Op::multiply ||
-                        i.op == Op::divide || i.op == Op::power;
-    depth += pushes ? 1 : (binary ? -1 : 0);
+    depth += pushes ? 1 : is_binary(i.op) ? -1 : 0;
     most = std::max(most, depth);
   }
   return most;
@@ -220,9 +222,7 @@ class ExpressionParser {
   }
 
   void emit(Op op) {
-    const bool binary =
-        op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::power;
-    if (binary) --stack_;
+    if (is_binary(op)) --stack_;
     result_.code_.push_back({op});
   }
 

@@ -3,14 +3,14 @@
 #include <cctype>
 #include <charconv>
 
+#include "core/trimmed.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
 
 std::optional<Measure> parse_measure(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
+  text = trimmed(text, " ");
   if (text.starts_with('+')) text.remove_prefix(1);
   // Not inf, nan, nor the beginning of the name of a parameter.
   const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
@@ -19,8 +19,7 @@ std::optional<Measure> parse_measure(std::string_view text) {
   Measure measure;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), measure.number);
   if (parsed.ec != std::errc()) return std::nullopt;
-  std::string_view rest(parsed.ptr, static_cast<std::size_t>(text.data() + text.size() - parsed.ptr));
-  while (rest.starts_with(' ')) rest.remove_prefix(1);
+  const std::string_view rest = trimmed({parsed.ptr, text.data() + text.size()}, " ");
   // Units begin with a letter, a sign such as ° or %, or the 1 of 1/s. Operators make an expression.
   const bool begins_unit = rest.empty() || rest[0] == '%' || rest[0] == '1' ||
                            std::isalpha(static_cast<unsigned char>(rest[0])) != 0 ||

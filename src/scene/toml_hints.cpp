@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/texts.hpp"
 #include "core/trimmed.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/units.hpp"
@@ -61,8 +62,7 @@ bool is_decimal_comma(std::string_view value) {
 }
 
 bool is_flag_in_capitals(std::string_view value) {
-  std::string lower(value);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = lower_case(std::string(value));
   return lower != value && (lower == "true" || lower == "false");
 }
 

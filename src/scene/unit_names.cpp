@@ -1,10 +1,10 @@
 // Names for units in messages: the usual SI unit of a dimension, and what a mistaken unit may mean.
 #include <array>
-#include <cctype>
 #include <map>
 #include <sstream>
 #include <utility>
 
+#include "core/texts.hpp"
 #include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
@@ -34,19 +34,11 @@ const std::map<std::string_view, std::string_view>& habits() {
   return table;
 }
 
-std::string in_lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 /// Powers written as in print: "m²", or with two stars: "m**2".
 std::string with_carets(std::string text) {
   for (const auto& [from, to] : {std::pair("²", "^2"), std::pair("³", "^3"), std::pair("**", "^"),
-                                 std::pair("⁻¹", "^-1"), std::pair(".", " ")}) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
-      text.replace(at, std::string_view(from).size(), to);
-  }
+                                 std::pair("⁻¹", "^-1"), std::pair(".", " ")})
+    text = replaced_all(text, from, to);
   return text;
 }
 
@@ -56,7 +48,7 @@ std::string with_other_capitals(const std::string& symbol) {
                                                       "MPa", "GPa", "J",  "kJ", "MJ",  "W",  "kW",
                                                       "MW",  "rad", "kg", "A",  "V",   "K"};
   for (const std::string_view unit : usual) {
-    if (in_lower_case(unit) == in_lower_case(symbol)) return std::string(unit);
+    if (lower_case(std::string(unit)) == lower_case(symbol)) return std::string(unit);
   }
   return "";
 }
@@ -64,7 +56,7 @@ std::string with_other_capitals(const std::string& symbol) {
 /// A unit that is understood, for one symbol; empty if none comes to mind.
 std::string repaired_symbol(const std::string& symbol) {
   if (parse_unit(symbol)) return symbol;
-  const std::string lower = in_lower_case(symbol);
+  const std::string lower = lower_case(symbol);
   if (const auto word = habits().find(lower); word != habits().end()) return std::string(word->second);
   if (parse_unit(lower)) return lower;
   if (const std::string other = with_other_capitals(symbol); !other.empty()) return other;
@@ -84,7 +76,7 @@ std::string repaired_symbol(const std::string& symbol) {
 /// The text with every symbol repaired; empty if that does not make a unit. Parentheses have no meaning in
 /// units: those around one symbol are left out, those around several cannot be.
 std::string repaired_unit(std::string_view unit) {
-  const std::string whole = in_lower_case(unit);
+  const std::string whole = lower_case(std::string(unit));
   if (const auto word = habits().find(whole); word != habits().end()) return std::string(word->second);
   const std::string text = with_carets(std::string(unit));
   std::string result;

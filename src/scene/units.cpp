@@ -1,9 +1,11 @@
 #include "eigentrail/scene/units.hpp"
 
 #include <array>
-#include <charconv>
 #include <numbers>
 #include <utility>
+
+#include "core/texts.hpp"
+#include "eigentrail/scene/measure.hpp"
 
 namespace eigentrail {
 namespace {
@@ -129,16 +131,12 @@ Unit power_of(const Unit& unit, int exponent) {
 
 /// One unit "symbol" or "symbol^n".
 std::optional<Unit> term_unit(std::string_view term) {
-  int exponent = 1;
   const std::size_t caret = term.find('^');
-  if (caret != std::string_view::npos) {
-    const char* begin = term.data() + caret + 1;
-    const char* end = term.data() + term.size();
-    const auto parsed = std::from_chars(begin, end, exponent);
-    if (parsed.ec != std::errc() || parsed.ptr != end || exponent < -12 || exponent > 12) return std::nullopt;
-  }
+  const auto exponent =
+      caret == std::string_view::npos ? std::optional(1) : parsed_number<int>(term.substr(caret + 1));
+  if (!exponent || *exponent < -12 || *exponent > 12) return std::nullopt;
   const auto base = symbol_unit(term.substr(0, caret));
-  return base ? std::optional(power_of(*base, exponent)) : std::nullopt;
+  return base ? std::optional(power_of(*base, *exponent)) : std::nullopt;
 }
 
 /// Length in bytes of a separator at the beginning of `text`, 0 if there is none.
@@ -190,14 +188,10 @@ std::optional<double> unit_factor(std::string_view unit) {
 }
 
 std::optional<double> angular_frequency(std::string_view text) {
-  double value = 0.0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (parsed.ec != std::errc() || !std::isfinite(value)) return std::nullopt;
-  std::string_view rest(parsed.ptr, static_cast<std::size_t>(text.data() + text.size() - parsed.ptr));
-  while (rest.starts_with(' ')) rest.remove_prefix(1);
-  if (rest.empty()) return value;
-  const auto unit = parse_unit(rest);
-  return unit && unit->dimension == of::rate ? std::optional(value * unit->factor) : std::nullopt;
+  const auto measure = parse_measure(text);
+  if (!measure || measure->unit.empty()) return measure ? std::optional(measure->number) : std::nullopt;
+  const auto unit = parse_unit(measure->unit);
+  return unit && unit->dimension == of::rate ? std::optional(measure->number * unit->factor) : std::nullopt;
 }
 
 }  // namespace eigentrail

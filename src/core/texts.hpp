@@ -1,0 +1,60 @@
+// Lists, numbers and letters in texts.
+#pragma once
+
+#include <cctype>
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eigentrail {
+
+/// The items of a list, one after the other. `text`, a member or a function, makes a text of an item.
+template <class List, class Text = std::identity>
+std::string joined(const List& list, std::string_view separator = ", ", Text text = {}) {
+  std::string all;
+  bool first = true;
+  for (const auto& item : list) {
+    if (!first) all += separator;
+    all += std::invoke(text, item);
+    first = false;
+  }
+  return all;
+}
+
+/// "a, b and c", with `last` before the last one.
+inline std::string enumerated(const std::vector<std::string>& items, std::string_view last = " and ") {
+  std::string all;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    all.append(i == 0 ? "" : i + 1 == items.size() ? last : ", ").append(items[i]);
+  return all;
+}
+
+/// The number that a text is; nothing for other texts.
+template <class Number>
+std::optional<Number> parsed_number(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+/// A text with `what` replaced wherever it stands.
+inline std::string replaced_all(std::string text, std::string_view what, std::string_view with) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
+    text.replace(at, what.size(), with);
+  return text;
+}
+
+inline std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+inline std::string upper_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace eigentrail
