@@ -23,12 +23,25 @@ enum class ElementType { real, complex, integer, text };
 
 using Shape = std::vector<std::uint64_t>;
 
+/// Elements of one type; alternatives in the order of ElementType.
+using StoredElements = std::variant<std::vector<double>, std::vector<Complex>, std::vector<std::int64_t>,
+                                    std::vector<std::string>>;
+
+template <class Element>
+ElementType element_type() {
+  return static_cast<ElementType>(StoredElements(std::vector<Element>()).index());
+}
+
+inline StoredElements no_elements(ElementType type) {
+  const StoredElements all[] = {std::vector<double>(), std::vector<Complex>(), std::vector<std::int64_t>(),
+                                std::vector<std::string>()};
+  return all[static_cast<std::size_t>(type)];
+}
+
 /// A dataset, the first rows of one, or an attribute. A single value has no dimensions.
 struct StoredArray {
   Shape shape;
-  /// Row-major; alternatives in the order of ElementType.
-  std::variant<std::vector<double>, std::vector<Complex>, std::vector<std::int64_t>, std::vector<std::string>>
-      elements;
+  StoredElements elements;  ///< row-major
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {

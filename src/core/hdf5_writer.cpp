@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <span>
 
 #include "core/hdf5_handle.hpp"
 
@@ -25,10 +26,6 @@ struct Hdf5Writer::Implementation {
     check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
     return {dims.begin(), dims.end()};
   }
-
-  /// Writes `count` elements, a whole number of rows, from `first_row` on; extends the dataset if necessary.
-  void write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count,
-             const void* data);
 };
 
 namespace {
@@ -123,24 +120,21 @@ hsize_t chunk_rows(const Shape& shape, std::size_t element_size) {
 
 Hdf5Turn::Hdf5Turn() : lock_(turn()) {}
 
-Hdf5Writer::Hdf5Writer(std::unique_ptr<Implementation> implementation)
-    : implementation_(std::move(implementation)) {}
-Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
-Hdf5Writer& Hdf5Writer::operator=(Hdf5Writer&&) noexcept = default;
-Hdf5Writer::~Hdf5Writer() = default;
+Hdf5Writer::Hdf5Writer(Implementation implementation)
+    : implementation_(std::make_shared<const Implementation>(std::move(implementation))) {}
 
 Hdf5Writer Hdf5Writer::create(const std::string& path) {
   silence_error_stack();
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, small_indices(), H5P_DEFAULT), H5Fclose,
               "create " + path);
-  return Hdf5Writer(std::make_unique<Implementation>(Implementation{path, std::move(file)}));
+  return Hdf5Writer({path, std::move(file)});
 }
 
 Hdf5Writer Hdf5Writer::in_memory(const std::string& name) {
   silence_error_stack();
   Handle file(H5Fcreate(unique_name(name).c_str(), H5F_ACC_TRUNC, small_indices(), memory_access()), H5Fclose,
               "create " + name);
-  return Hdf5Writer(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+  return Hdf5Writer({name, std::move(file)});
 }
 
 Hdf5Writer Hdf5Writer::from_image(const std::string& name, std::string_view image) {
@@ -148,7 +142,7 @@ Hdf5Writer Hdf5Writer::from_image(const std::string& name, std::string_view imag
   const Handle access = memory_access();
   check(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "take " + name);
   Handle file(H5Fopen(unique_name(name).c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + name);
-  return Hdf5Writer(std::make_unique<Implementation>(Implementation{name, std::move(file)}));
+  return Hdf5Writer({name, std::move(file)});
 }
 
 std::string Hdf5Writer::image() {
@@ -166,11 +160,18 @@ void Hdf5Writer::flush() {
   check(H5Fflush(implementation_->file, H5F_SCOPE_GLOBAL), "flush " + implementation_->path);
 }
 
-void Hdf5Writer::Implementation::write(const std::string& name, std::uint64_t first_row, ElementType type,
-                                       std::size_t count, const void* data) {
+/// `count` elements, a whole number of rows.
+void Hdf5Writer::write(const std::string& name, std::uint64_t first_row, ElementType type, std::size_t count,
+                       const void* data) {
   if (count == 0) return;
-  const std::string action = "write dataset " + name + " of " + path;
-  const Handle set = dataset(name);
+  const std::string action = "write dataset " + name + " of " + implementation_->path;
+  std::vector<const char*> texts;
+  if (type == ElementType::text) {
+    for (const std::string& text : std::span(static_cast<const std::string*>(data), count))
+      texts.push_back(text.c_str());
+    data = texts.data();
+  }
+  const Handle set = implementation_->dataset(name);
   const Shape found = shape(name);
   std::vector<hsize_t> dims(found.begin(), found.end());
   hsize_t row = 1;
@@ -206,15 +207,11 @@ void Hdf5Writer::create_dataset(const DatasetSpec& spec) {
     for (hsize_t& c : chunk) c = std::max<hsize_t>(c, 1);
     check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), action);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const Complex complex_fill(nan, nan);
-    const double real_fill = nan;
-    const std::int64_t integer_fill = -1;
-    if (spec.type != ElementType::text) {
-      const void* fill = spec.type == ElementType::complex   ? static_cast<const void*>(&complex_fill)
-                         : spec.type == ElementType::integer ? static_cast<const void*>(&integer_fill)
-                                                             : static_cast<const void*>(&real_fill);
-      check(H5Pset_fill_value(properties, type, fill), action);
-    }
+    const Complex not_known(nan, nan);
+    const std::int64_t none = -1;
+    const void* fill = &not_known;  // its first number is that of real elements
+    if (spec.type == ElementType::integer) fill = &none;
+    if (spec.type != ElementType::text) check(H5Pset_fill_value(properties, type, fill), action);
   }
   const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), limits.data()), H5Sclose,
                      action);
@@ -231,29 +228,6 @@ void Hdf5Writer::extend(const std::string& dataset, unsigned dimension, std::uin
   dims.at(dimension) = size;
   const std::vector<hsize_t> extent(dims.begin(), dims.end());
   check(H5Dset_extent(implementation_->dataset(dataset), extent.data()), "extend dataset " + dataset);
-}
-
-void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
-                            const std::vector<double>& data) {
-  implementation_->write(dataset, first_row, ElementType::real, data.size(), data.data());
-}
-
-void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
-                            const std::vector<Complex>& data) {
-  implementation_->write(dataset, first_row, ElementType::complex, data.size(), data.data());
-}
-
-void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
-                            const std::vector<std::int64_t>& data) {
-  implementation_->write(dataset, first_row, ElementType::integer, data.size(), data.data());
-}
-
-void Hdf5Writer::write_rows(const std::string& dataset, std::uint64_t first_row,
-                            const std::vector<std::string>& data) {
-  std::vector<const char*> texts;
-  texts.reserve(data.size());
-  for (const std::string& text : data) texts.push_back(text.c_str());
-  implementation_->write(dataset, first_row, ElementType::text, texts.size(), texts.data());
 }
 
 void Hdf5Writer::make_scale(const std::string& dataset, const std::string& label) {

@@ -33,7 +33,7 @@ struct DatasetSpec {
   std::map<std::string, std::string> attributes;
 };
 
-/// An HDF5 file that is being written. Not thread-safe.
+/// An HDF5 file that is being written. Copies are the same file. Not thread-safe.
 class Hdf5Writer {
  public:
   /// Creates `path`. Throws Hdf5Error if it exists or cannot be created. Switches HDF5's own printing of
@@ -44,9 +44,6 @@ class Hdf5Writer {
   /// Goes on with a file in memory, from its bytes. They must be those that this class has given: HDF5 trusts
   /// them. `name` is used in messages.
   static Hdf5Writer from_image(const std::string& name, std::string_view image);
-  Hdf5Writer(Hdf5Writer&&) noexcept;
-  Hdf5Writer& operator=(Hdf5Writer&&) noexcept;
-  ~Hdf5Writer();
 
   void create_dataset(const DatasetSpec& spec);
 
@@ -56,10 +53,10 @@ class Hdf5Writer {
 
   /// Writes whole rows (first index) from `first_row` on and extends the dataset if necessary. Data are
   /// row-major.
-  void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<double>& data);
-  void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<Complex>& data);
-  void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<std::int64_t>& data);
-  void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<std::string>& data);
+  template <class Element>
+  void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<Element>& data) {
+    write(dataset, first_row, element_type<Element>(), data.size(), data.data());
+  }
 
   /// Makes a one-dimensional dataset a dimension scale (the coordinates of a dimension); `label` is the name
   /// of the dimension.
@@ -83,8 +80,11 @@ class Hdf5Writer {
 
  private:
   struct Implementation;
-  explicit Hdf5Writer(std::unique_ptr<Implementation> implementation);
-  std::unique_ptr<Implementation> implementation_;
+  explicit Hdf5Writer(Implementation implementation);
+  void write(const std::string& dataset, std::uint64_t first_row, ElementType type, std::size_t count,
+             const void* data);
+
+  std::shared_ptr<const Implementation> implementation_;
 };
 
 }  // namespace eigentrail

@@ -71,26 +71,16 @@ std::vector<std::string> read_texts(hid_t stored, hid_t shape, std::size_t count
   return texts;
 }
 
-template <class Element>
-std::vector<Element> read_numbers(ElementType type, std::size_t count, const Read& read,
-                                  const std::string& action) {
-  std::vector<Element> numbers(count);
-  if (count > 0) check(read(memory_type(type), numbers.data()), action);
+StoredElements read_elements(ElementType type, hid_t stored, hid_t shape, std::size_t count, const Read& read,
+                             const std::string& action) {
+  if (type == ElementType::text) return read_texts(stored, shape, count, read, action);
+  StoredElements numbers = no_elements(type);
+  const auto fill = [&](auto& list) {
+    list.resize(count);
+    if (count > 0) check(read(memory_type(type), list.data()), action);
+  };
+  std::visit(fill, numbers);
   return numbers;
-}
-
-decltype(StoredArray::elements) read_elements(ElementType type, hid_t stored, hid_t shape, std::size_t count,
-                                              const Read& read, const std::string& action) {
-  switch (type) {
-    case ElementType::real:
-      return read_numbers<double>(type, count, read, action);
-    case ElementType::complex:
-      return read_numbers<Complex>(type, count, read, action);
-    case ElementType::integer:
-      return read_numbers<std::int64_t>(type, count, read, action);
-    default:
-      return read_texts(stored, shape, count, read, action);
-  }
 }
 
 /// Refuses data that are elsewhere or compressed in a way that is not HDF5's own, and shapes far larger than

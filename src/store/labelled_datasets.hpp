@@ -21,20 +21,6 @@ struct DatasetLabel {
   std::string long_name;
 };
 
-template <class Element>
-constexpr ElementType element_type() {
-  if constexpr (std::is_same_v<Element, double>) {
-    return ElementType::real;
-  } else if constexpr (std::is_same_v<Element, Complex>) {
-    return ElementType::complex;
-  } else if constexpr (std::is_same_v<Element, std::int64_t>) {
-    return ElementType::integer;
-  } else {
-    static_assert(std::is_same_v<Element, std::string>, "no type of HDF5 files");
-    return ElementType::text;
-  }
-}
-
 /// Writes `data` (row-major) over dimensions that exist already; the shape follows from them.
 template <class Element>
 void write_dataset(Hdf5Writer& file, const DatasetLabel& label, const std::vector<std::string>& dimensions,
@@ -120,10 +106,11 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> read_matrix(const Hdf5File
                                                                   std::size_t columns) {
   file.require_fit(file.shape(name) == Shape{rows, columns}, name);
   std::vector<Scalar> data;
-  if constexpr (std::is_same_v<Scalar, double>) {
-    if (rows * columns > 0) data = file.read_real(name);
-  } else {
-    if (rows * columns > 0) data = file.read_complex(name);
+  if (rows * columns > 0) {
+    if constexpr (std::is_same_v<Scalar, double>)
+      data = file.read_real(name);
+    else
+      data = file.read_complex(name);
   }
   using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return RowMajor::Map(data.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));

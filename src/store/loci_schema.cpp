@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
+#include "core/texts.hpp"
 #include "eigentrail/modes/whirl.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/mode_motions.hpp"
@@ -123,46 +125,22 @@ constexpr Row whole[] = {
     {"projection_basis", real, "freedom coordinate", "1",
      "the large model's vectors are this times the coordinates"}};
 
-/// Dimensions, and datasets that describe them.
-constexpr const char* dimensions[] = {"node",
-                                      "step",
-                                      "mode",
-                                      "function",
-                                      "end",
-                                      "coordinate",
-                                      "motion",
-                                      "constraint",
-                                      "order",
-                                      "event",
-                                      "coordinate_unit",
-                                      "scene_parameter",
-                                      "scene_parameter_unit",
-                                      "range",
-                                      "shaft_node",
-                                      "shaft_axis",
-                                      "freedom",
-                                      "projection_place"};
+/// Dimensions, and datasets that describe them, separated by blanks.
+constexpr const char* dimensions =
+    "node step mode function end coordinate motion constraint order event coordinate_unit scene_parameter "
+    "scene_parameter_unit range shaft_node shaft_axis freedom projection_place";
 
-bool has(Needs needs, const Model& model, const TraceOptions& options) {
+/// What a trace has of what datasets need.
+std::set<Needs> had_by(const Model& model, const TraceOptions& options) {
   const ModelDescription& description = model.description();
-  const bool masses = !description.masses.empty();
-  switch (needs) {
-    case Needs::blades:
-      return description.rotor.has_value();
-    case Needs::no_blades:
-      return !description.rotor.has_value();
-    case Needs::constraints:
-      return model.n_constraints() > 0;
-    case Needs::whirl:
-      return has_whirl(description);
-    case Needs::masses:
-      return masses;
-    case Needs::names:
-      return masses || !description.shafts.empty() || named_by_coordinates(description) ||
-             named_by_freedoms(model) != nullptr || !options.mode_names.empty();
-    default:
-      return true;
-  }
+  std::set<Needs> had{Needs::nothing, description.rotor ? Needs::blades : Needs::no_blades};
+  if (model.n_constraints() > 0) had.insert(Needs::constraints);
+  if (has_whirl(description)) had.insert(Needs::whirl);
+  if (!description.masses.empty()) had.insert({Needs::masses, Needs::names});
+  if (!description.shafts.empty() || named_by_coordinates(description) ||
+      named_by_freedoms(model) != nullptr || !options.mode_names.empty())
+    had.insert(Needs::names);
+  return had;
 }
 
 /// The unit of all coordinates; "coordinate_unit", the name of the dataset with the units, if they differ.
@@ -180,10 +158,7 @@ std::vector<std::string> words(const char* text) {
 
 /// A text with what its words in braces stand for.
 std::string filled(std::string text, const std::map<std::string, std::string>& words_for) {
-  for (const auto& [word, replacement] : words_for) {
-    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += replacement.size())
-      text.replace(at, word.size(), replacement);
-  }
+  for (const auto& [word, replacement] : words_for) text = replaced_all(text, word, replacement);
   return text;
 }
 
@@ -201,8 +176,9 @@ std::vector<LociDataset> growing_datasets(const Model& model, const TraceOptions
       {"{coordinates}", loci_schema::common_unit(description)}};
   std::vector<LociDataset> list{
       {parameter, ElementType::real, {"node"}, unit, "traced parameter " + parameter}};
+  const std::set<loci_schema::Needs> had = loci_schema::had_by(model, options);
   for (const loci_schema::Row& row : loci_schema::rows) {
-    if (loci_schema::has(row.needs, model, options))
+    if (had.contains(row.needs))
       list.push_back({row.name, row.type, loci_schema::words(row.dimensions),
                       loci_schema::filled(row.units, words_for),
                       loci_schema::filled(row.long_name, words_for)});
@@ -231,18 +207,10 @@ std::vector<std::string> trimmed_names(const ModelDescription& description) {
   return names;
 }
 
-std::string trimmed_list(const ModelDescription& description) {
-  std::string list;
-  for (const std::string& name : trimmed_names(description)) list += (list.empty() ? "" : ",") + name;
-  return list;
-}
-
 bool is_loci_dataset(const std::string& name) {
-  const auto is_it = [&](const char* one) { return one == name; };
   const auto has_it = [&](const loci_schema::Row& row) { return row.name == name; };
-  return std::any_of(std::begin(loci_schema::dimensions), std::end(loci_schema::dimensions), is_it) ||
-         std::any_of(std::begin(loci_schema::rows), std::end(loci_schema::rows), has_it) ||
-         std::any_of(std::begin(loci_schema::whole), std::end(loci_schema::whole), has_it);
+  return std::ranges::count(loci_schema::words(loci_schema::dimensions), name) > 0 ||
+         std::ranges::any_of(loci_schema::rows, has_it) || std::ranges::any_of(loci_schema::whole, has_it);
 }
 
 std::vector<std::string> datasets_of_events() {
@@ -254,8 +222,7 @@ std::vector<std::string> datasets_of_events() {
 }
 
 LociDataset whole_dataset(const std::string& name, const std::string& parameter_unit) {
-  const auto* row = std::find_if(std::begin(loci_schema::whole), std::end(loci_schema::whole),
-                                 [&](const loci_schema::Row& one) { return one.name == name; });
+  const auto* row = std::ranges::find(loci_schema::whole, name, &loci_schema::Row::name);
   return {name, row->type, loci_schema::words(row->dimensions),
           loci_schema::filled(row->units, {{"{unit}", parameter_unit}}), row->long_name};
 }

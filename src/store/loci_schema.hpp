@@ -26,8 +26,7 @@ inline std::string step_dataset(const std::string& parameter) {
   return "step_" + parameter;
 }
 
-/// Names of the trimmed parameters, separated by commas: the root attribute "trimmed".
-std::string trimmed_list(const ModelDescription& description);
+/// Names of the trimmed parameters.
 std::vector<std::string> trimmed_names(const ModelDescription& description);
 
 /// Whether a loci file has a dataset of this name. The traced parameter cannot have such a name, because its

@@ -4,9 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "eigentrail/model/projection.hpp"
 #include "store/labelled_datasets.hpp"
-#include "store/projection_datasets.hpp"
-#include "store/shaft_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -42,19 +41,6 @@ void create_dimensions(Hdf5Writer& file, const Model& model, int order, std::siz
   write_dataset(file, {"scene_parameter_unit", "1", "unit of the parameter"}, {"scene_parameter"}, units);
 }
 
-decltype(StoredArray::elements) no_elements(ElementType type) {
-  switch (type) {
-    case ElementType::real:
-      return std::vector<double>();
-    case ElementType::complex:
-      return std::vector<Complex>();
-    case ElementType::integer:
-      return std::vector<std::int64_t>();
-    default:
-      return std::vector<std::string>();
-  }
-}
-
 /// What elements are that have not been set, in memory as in the file.
 template <class Element>
 Element not_set() {
@@ -63,6 +49,44 @@ Element not_set() {
   if constexpr (std::is_same_v<Element, Complex>) return {nan, nan};
   if constexpr (std::is_same_v<Element, std::int64_t>) return -1;
   return {};
+}
+
+/// Names, places and coordinates of the nodes of shafts; nothing for a model without.
+void write_shafts(Hdf5Writer& file, const ModelDescription& description) {
+  if (description.shafts.empty()) return;
+  std::vector<std::string> names;
+  std::vector<std::int64_t> numbers, coordinates;
+  std::vector<double> places;
+  std::int64_t number = 0;
+  for (const SpinningShaft& shaft : description.shafts) {
+    for (std::size_t i = 0; i < shaft.nodes.size(); ++i) {
+      names.push_back((shaft.name.empty() ? "" : shaft.name + " ") + "node " + std::to_string(i + 1));
+      numbers.push_back(number);
+      places.push_back(shaft.places[i]);
+      for (const Eigen::Index coordinate : shaft.nodes[i]) coordinates.push_back(coordinate);
+    }
+    ++number;
+  }
+  write_dimension(file, {"shaft_node", "1", "node of a shaft"}, names);
+  write_dimension(file, {"shaft_axis", "1", "direction of a displacement"},
+                  std::vector<std::string>{"x", "y"});
+  write_whole(file, whole_dataset("shaft_number"), numbers);
+  write_whole(file, whole_dataset("shaft_place"), places);
+  write_whole(file, whole_dataset("shaft_coordinate"), coordinates);
+}
+
+/// The dimension `freedom`, the basis over it, and what is known of the projection as attributes.
+void write_projection(Hdf5Writer& file, const Projection& projection) {
+  if (projection.is_of_family()) {
+    write_dimension(file, {"freedom", "1", "freedom of the large model"}, projection.names);
+    write_whole(file, whole_dataset("projection_basis"), row_major(projection.basis));
+  }
+  write_dimension(file, {"projection_place", "1", "values of the parameter whose modes span the space"},
+                  projection.sampled_at);
+  file.set_attribute("projection_error", projection.error);
+  file.set_attribute("projection_error_at", projection.error_at);
+  file.set_attribute("count_sparse_factorizations", static_cast<std::int64_t>(projection.factorizations));
+  file.set_attribute("count_sparse_solutions", static_cast<std::int64_t>(projection.solutions));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class LociTables {
   /// A dataset and its rows that are not written yet.
   struct Column {
     LociDataset dataset;
-    decltype(StoredArray::elements) rows;
+    StoredElements rows;
   };
 
   Column& column_called(const std::string& dataset);

@@ -74,7 +74,9 @@ class PartialFile {
 
   void write(const std::vector<std::string_view>& parts) {
     if (ftruncate(file_.descriptor(), 0) != 0) fail(path_);
-    for (const std::string_view part : parts) write(part);
+    for (const std::string_view part : parts) {
+      if (!file_.write(part)) fail(path_);
+    }
     sync(file_.descriptor(), path_);
   }
 
@@ -95,14 +97,6 @@ class PartialFile {
   }
 
  private:
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(file_.descriptor(), bytes.data(), bytes.size());
-      if (written < 0 && errno != EINTR) fail(path_);
-      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-
   /// Owner and group as far as this process may give them.
   void keep_permissions() {
     struct stat old {};

@@ -45,6 +45,15 @@ LockedFile::LockedFile(const std::string& name, const std::string& path) {
   }
 }
 
+bool LockedFile::write(std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
 void LockedFile::unlock() const {
   flock(descriptor_, LOCK_UN);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace eigentrail {
 
@@ -17,6 +18,8 @@ class LockedFile {
   LockedFile& operator=(const LockedFile&) = delete;
 
   int descriptor() const { return descriptor_; }
+  /// Writes all bytes; false, with errno, if that fails.
+  bool write(std::string_view bytes) const;
   /// For readers that lock what they read, as HDF5 does.
   void unlock() const;
   /// Why the file system offers no locks, as an error number; 0: the file is locked.

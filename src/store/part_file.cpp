@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 
 #include "core/archive.hpp"
 #include "core/fingerprint.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "store/differences.hpp"
@@ -52,11 +54,9 @@ void check_same_run(const PartFile& first, const PartFile& other) {
 
 [[noreturn]] void refuse_missing(const std::vector<int>& missing, int count) {
   constexpr std::size_t most_named = 5;
-  std::string numbers, options;
-  for (std::size_t i = 0; i < std::min(missing.size(), most_named); ++i) {
-    numbers += (i > 0 ? ", " : "") + std::to_string(missing[i]);
-    options += (i > 0 ? ", " : "") + option_of(missing[i], count);
-  }
+  const auto named = missing | std::views::take(most_named);
+  std::string numbers = joined(named, ", ", [](int number) { return std::to_string(number); });
+  std::string options = joined(named, ", ", [count](int number) { return option_of(number, count); });
   if (missing.size() > most_named) {
     numbers += " and " + std::to_string(missing.size() - most_named) + " more";
     options += ", ...";

@@ -1,6 +1,7 @@
 #include "store/provenance.hpp"
 
 #include "core/blas.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/version.hpp"
 
 namespace eigentrail {
@@ -30,9 +31,7 @@ void check_schema(const Hdf5File& file, const std::string& path, int expected) {
 }
 
 void write_notes(Hdf5Writer& file, const std::vector<std::string>& notes) {
-  std::string joined;
-  for (const std::string& note : notes) joined += (joined.empty() ? "" : "; ") + note;
-  file.set_attribute("notes", joined);
+  file.set_attribute("notes", joined(notes, "; "));
 }
 
 }  // namespace eigentrail

@@ -85,13 +85,9 @@ void UnfinishedRun::begin() {
 }
 
 void UnfinishedRun::write(const std::string& record) {
-  for (std::string_view left = record; !left.empty();) {
-    const ssize_t written = ::write(file_->descriptor(), left.data(), left.size());
-    if (written < 0 && errno != EINTR)
-      throw std::runtime_error(name_ + ": cannot be written on: " + std::generic_category().message(errno) +
-                               "; make room, then the same command with --resume goes on");
-    if (written > 0) left.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!file_->write(record))
+    throw std::runtime_error(name_ + ": cannot be written on: " + std::generic_category().message(errno) +
+                             "; make room, then the same command with --resume goes on");
 }
 
 void UnfinishedRun::write_part(Existing existing) {
