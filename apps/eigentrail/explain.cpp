@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "core/texts.hpp"
 #include "eigentrail/continuation/family_parts.hpp"
 #include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
@@ -163,18 +164,16 @@ void explain_sensitivity(std::FILE* to, const Scene& scene, const OptionTexts& o
 /// "; part 2 stands for 4 equal ones", for every number of equal ones; empty if no parts are equal. Equal
 /// parts count as one.
 std::string describe_equal(const IndependentParts& parts) {
-  std::map<std::size_t, std::vector<std::size_t>> standing;  // parts by the number that they stand for
+  std::map<std::size_t, std::vector<std::string>> standing;  // parts by the number that they stand for
   for (std::size_t i = 0; i < parts.count(); ++i) {
-    if (!parts.ranges[i].copies.empty()) standing[1 + parts.ranges[i].copies.size()].push_back(i + 1);
+    if (!parts.ranges[i].copies.empty())
+      standing[1 + parts.ranges[i].copies.size()].push_back(std::to_string(i + 1));
   }
   std::string text;
   for (const auto& [equal, which] : standing) {
     const bool one = which.size() == 1;
-    text += one ? "; part " : "; parts ";
-    for (const std::size_t i : which)
-      text += (i == which.front() ? "" : i == which.back() ? " and " : ", ") + std::to_string(i);
-    text += (one ? " stands for " : " stand for ") + std::to_string(equal) +
-            (one ? " equal ones" : " equal ones each");
+    text += (one ? "; part " : "; parts ") + enumerated(which) + (one ? " stands for " : " stand for ") +
+            std::to_string(equal) + (one ? " equal ones" : " equal ones each");
   }
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/texts.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
 
 namespace eigentrail::app {
@@ -36,13 +37,6 @@ bool is_free(const Matrix& K, const Vector& motion) {
   return motion.any() && (K * motion).cwiseAbs().maxCoeff() <= rounding * largest.maxCoeff();
 }
 
-std::string listed(const std::vector<std::string>& items) {
-  std::string all;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    all += (i == 0 ? "" : i + 1 == items.size() ? " and " : ", ") + items[i];
-  return all;
-}
-
 std::vector<std::string> free_shafts_in_words(const ModelDescription& description, const Matrix& K) {
   std::vector<std::string> sentences;
   for (const SpinningShaft& shaft : description.shafts) {
@@ -59,7 +53,7 @@ std::vector<std::string> free_shafts_in_words(const ModelDescription& descriptio
     if (words.empty()) continue;
     const std::string name = shaft.name.empty() ? "shaft" : "shaft " + shaft.name;
     const std::string node = shaft.name.empty() ? "1" : "\"" + shaft.name + " node 1\"";
-    sentences.push_back("The " + name + " is free " + listed(words) +
+    sentences.push_back("The " + name + " is free " + enumerated(words) +
                         ": eigenvalues zero. To hold it, add [[support]] node = " + node + ", holds = [" +
                         holds + "].");
   }
@@ -102,7 +96,7 @@ std::vector<std::string> free_motions_in_words(const Model& model, const PathPoi
   const std::string held = model.n_constraints() > 0 || !model.description().masses.empty()
                                ? "a spring, a joint or another constraint holds them"
                                : "stiffness, or a constraint A, holds them";
-  return {"Free to move, with eigenvalues zero throughout: " + listed(names_of(model, point, motions)) +
+  return {"Free to move, with eigenvalues zero throughout: " + enumerated(names_of(model, point, motions)) +
           "; " + held + "."};
 }
 

@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
@@ -40,12 +41,9 @@ void reject_unknown_command(const CLI::App& program, int argc, char** argv) {
     throw InputError("unknown command '" + given + "'; " + suggestion(given, commands));
   }
   if (given == "import" && argc > 2 && argv[2][0] != '-') (void)importer(argv[2]);
-  if (given == "import" && argc == 2) {
-    std::string formats;
-    for (const Importer& one : importers()) formats += (formats.empty() ? "" : ", ") + one.format;
-    throw InputError("import: expected a format (" + formats +
+  if (given == "import" && argc == 2)
+    throw InputError("import: expected a format (" + joined(importers(), ", ", &Importer::format) +
                      ") and files; eigentrail import FORMAT --help says what is read");
-  }
 }
 
 /// The command that was given, "import matlab" as well as "trace"; the program itself without one.

@@ -1,14 +1,16 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/stability/stability_map.hpp"
 #include "eigentrail/store/map_writer.hpp"
-#include "map_picture.hpp"
 #include "output.hpp"
 #include "scene_arguments.hpp"
 #include "shared_job.hpp"
@@ -16,6 +18,56 @@
 
 namespace eigentrail::app {
 namespace {
+
+constexpr std::size_t most_columns = 60;
+constexpr std::size_t most_rows = 24;
+
+char symbol(int unstable) {
+  if (unstable == MapLine::unknown) return '?';
+  if (unstable == 0) return '.';
+  return unstable <= 9 ? static_cast<char>('0' + unstable) : '+';
+}
+
+/// The cells to show of n, at most `most` and including both ends, in ascending order of their values.
+/// `ascending`: whether the values of the cells ascend.
+std::vector<std::size_t> shown(std::size_t n, std::size_t most, bool ascending) {
+  const std::size_t count = std::min(n, most);
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < count; ++i) cells.push_back((i * (n - 1) + (count - 1) / 2) / (count - 1));
+  if (!ascending) std::reverse(cells.begin(), cells.end());
+  return cells;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+
+/// The map as lines of text: the second parameter increases upwards, the first to the right, with names and
+/// values on the axes. '.': no mode grows; digit: number of growing modes, '+' if more than nine; '?':
+/// unknown. Of a large map only some of the cells are shown, at equal distances.
+std::vector<std::string> map_picture(const StabilityMap& map, const std::string& first,
+                                     const std::string& second) {
+  const auto columns = shown(map.first.size(), most_columns, map.first.front() < map.first.back());
+  auto rows = shown(map.lines.size(), most_rows, map.lines.front().second < map.lines.back().second);
+  std::reverse(rows.begin(), rows.end());
+  const auto value_of = [&](std::size_t row) { return rounded(map.lines[row].second, 5); };
+  const std::size_t width =
+      std::max({second.size(), value_of(rows.front()).size(), value_of(rows.back()).size()});
+  std::vector<std::string> text{"  " + padded(second, width)};
+  for (const std::size_t row : rows) {
+    const bool end = row == rows.front() || row == rows.back();
+    std::string line = "  " + padded(end ? value_of(row) : "", width) + " |";
+    for (const std::size_t column : columns) line += symbol(map.lines[row].unstable[column]);
+    text.push_back(line);
+  }
+  const std::string left = rounded(map.first[columns.front()], 5);
+  const std::string right = rounded(map.first[columns.back()], 5);
+  text.push_back("  " + padded("", width) + " +" + std::string(columns.size(), '-'));
+  const std::size_t used = left.size() + right.size();
+  const std::size_t gap = columns.size() > used + 2 ? columns.size() - used : 2;
+  text.push_back("  " + padded("", width) + "  " + left + std::string(gap, ' ') + right + "  " + first);
+  return text;
+}
 
 struct MapArguments : SceneArguments {
   OutputChoice output;
@@ -26,19 +78,15 @@ struct MapArguments : SceneArguments {
 
 /// Reads "N", or "NxM" for N values of the second parameter and M of the first.
 void read_grid(const std::string& text, MapOptions& options) {
-  const auto number = [&text](std::size_t begin, std::size_t end) {
-    int value = 0;
-    const auto parsed = std::from_chars(text.data() + begin, text.data() + end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + end) {
-      throw InputError(
-          "--grid: expected N, or NxM for N values of the second parameter by M of the first; found '" +
-          text + "'");
-    }
-    return value;
-  };
   const std::size_t cross = text.find('x');
-  options.n_second = number(0, std::min(cross, text.size()));
-  options.n_first = cross == std::string::npos ? options.n_second : number(cross + 1, text.size());
+  const auto second = parsed_number<int>(text.substr(0, cross));
+  const auto first = cross == std::string::npos ? second : parsed_number<int>(text.substr(cross + 1));
+  if (!second || !first)
+    throw InputError(
+        "--grid: expected N, or NxM for N values of the second parameter by M of the first; found '" + text +
+        "'");
+  options.n_second = *second;
+  options.n_first = *first;
 }
 
 std::string percent(std::size_t part, std::size_t whole) {

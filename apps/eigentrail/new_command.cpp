@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "output_choice.hpp"
 #include "starters.hpp"
@@ -14,15 +15,6 @@ struct NewArguments {
   std::string output;
   std::string starter = "blade";
 };
-
-/// The text of a starter scene, with the name of the file inserted into the commands in its comments.
-std::string text_for(const Starter& starter, const std::string& file) {
-  const std::string mark = "@file@";
-  std::string text(starter.text);
-  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += file.size())
-    text.replace(at, mark.size(), file);
-  return text;
-}
 
 int run_new(const NewArguments& arguments) {
   std::vector<std::string> names;
@@ -37,7 +29,9 @@ int run_new(const NewArguments& arguments) {
   if (std::filesystem::exists(path, error))
     throw InputError(path + ": exists already, and a scene is never replaced; give another name");
   check_new_output(path, false, {"scene", [](const std::string&) { return false; }});
-  write_durably(path, {text_for(starters[static_cast<std::size_t>(chosen - names.begin())], path)});
+  // The commands in the comments of a starter name its file.
+  const Starter& starter = starters[static_cast<std::size_t>(chosen - names.begin())];
+  write_durably(path, {replaced_all(std::string(starter.text), "@file@", path)});
   std::printf("wrote %s; next: eigentrail explain %s\n", path.c_str(), path.c_str());
   return done;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -61,9 +62,9 @@ double log_decrement(Complex s) {
 }
 
 std::string modes_text(const Event& event) {
-  std::string modes;
-  for (const int mode : event.modes) modes += (modes.empty() ? "" : ", ") + std::to_string(mode + 1);
-  return modes.empty() ? "" : (event.modes.size() == 1 ? "mode " : "modes ") + modes;
+  if (event.modes.empty()) return "";
+  return (event.modes.size() == 1 ? "mode " : "modes ") +
+         joined(event.modes, ", ", [](int mode) { return std::to_string(mode + 1); });
 }
 
 std::vector<std::string> event_row(const Event& event, const std::string& parameter) {

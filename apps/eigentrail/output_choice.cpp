@@ -1,9 +1,9 @@
 #include "output_choice.hpp"
 
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 
 namespace eigentrail::app {
@@ -68,9 +68,7 @@ void check_new_output(const std::string& path, bool force, const OutputFormat& f
 }
 
 std::string extension_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 bool begins_with(const std::string& path, std::string_view text) {

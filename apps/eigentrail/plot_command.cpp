@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "output_choice.hpp"
 
@@ -45,9 +46,7 @@ const PictureKind* kind_of(const std::string& path) {
 
 void check_picture_name(const std::string& output) {
   if (kind_of(output) != nullptr) return;
-  std::string known;
-  for (const PictureKind& kind : picture_kinds)
-    known += (known.empty() ? "" : ", ") + std::string(kind.ending);
+  const std::string known = joined(picture_kinds, ", ", &PictureKind::ending);
   const std::string page = extension_of(output).starts_with(".htm") ? "; eigentrail report writes pages" : "";
   throw InputError(output + ": expected a name that ends in one of " + known + page);
 }

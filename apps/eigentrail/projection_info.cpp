@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "output.hpp"
@@ -12,8 +13,7 @@ namespace eigentrail::app {
 void print_projection(const Projection& projection, const std::string& parameter) {
   std::vector<double> places = projection.sampled_at;
   std::sort(places.begin(), places.end());
-  std::string list;
-  for (const double p : places) list += (list.empty() ? "" : ", ") + rounded(p, 5);
+  const std::string list = joined(places, ", ", [](double p) { return rounded(p, 5); });
   std::printf(
       "  projected from %lld freedoms: %d sparse factorizations by %s, %.3g MB, %ld solutions;\n"
       "        modes of the large model at %s = %s;\n"

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
@@ -19,9 +20,7 @@ std::string field(const Cell& cell, const std::string& unknown) {
 }  // namespace
 
 std::string csv_line(const std::vector<Cell>& cells, const std::string& unknown) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + field(cells[i], unknown);
-  return line + "\n";
+  return joined(cells, ",", [&](const Cell& cell) { return field(cell, unknown); }) + "\n";
 }
 
 std::string csv_text(const Records& records) {

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/model/build.hpp"
@@ -133,9 +134,8 @@ void print_text(const EffectHelp& table) {
   if (!table.states.empty()) std::printf("  %s\n", states_in_words(table, "").c_str());
 }
 
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text;
+std::string cell(const std::string& text) {
+  return replaced_all(text, "|", "\\|");
 }
 
 void print_markdown(const EffectHelp& table) {

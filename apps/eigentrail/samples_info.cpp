@@ -3,23 +3,17 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "import/samples.hpp"
 #include "output.hpp"
 #include "records.hpp"
 
 namespace eigentrail::app {
 namespace {
-
-/// "A" or "M, C, K".
-std::string matrices_in(const SampledData& data) {
-  std::string names;
-  for (const SampledMatrix& named : sampled_matrices()) {
-    if (!(data.*named.samples).empty()) names += (names.empty() ? "" : ", ") + std::string(named.name);
-  }
-  return names;
-}
 
 /// "angle (rad), rate (rad/s)", the first few.
 std::string states_in(const SampledData& data) {
@@ -76,10 +70,9 @@ void print_samples(const std::string& path, bool json) {
   const std::string unit =
       data.parameter_unit.empty() || data.parameter_unit == "1" ? "" : " " + data.parameter_unit;
   const std::string name = data.parameter_name.empty() ? "the parameter" : data.parameter_name;
-  std::string values;
   constexpr std::size_t most = 30;
-  for (std::size_t i = 0; i < std::min(most, data.count()); ++i)
-    values += (i == 0 ? "" : ", ") + rounded(data.values[i], 8);
+  std::string values =
+      joined(data.values | std::views::take(most), ", ", [](double value) { return rounded(value, 8); });
   if (data.count() > most)
     values += " and " + std::to_string(data.count() - most) + " more up to " + rounded(data.values.back(), 8);
   std::vector<std::vector<std::string>> rows{

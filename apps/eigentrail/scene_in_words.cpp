@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail::app {
@@ -50,18 +51,12 @@ std::string prospects(const Structure& structure) {
          "(divergence).";
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + printable(name);
-  return text;
-}
-
 /// What the program takes for the blade and for the support of a rotor of equal blades.
 std::vector<std::string> blades_in_words(const std::optional<BladedRotor>& rotor) {
   if (!rotor) return {};
   return {std::to_string(rotor->blades) + " equal blades turn on '" + printable(rotor->hub) +
-              "'; one of them is " + joined(rotor->of_blade) + ". What stands: " + joined(rotor->support) +
-              ".",
+              "'; one of them is " + joined(rotor->of_blade, ", ", printable) +
+              ". What stands: " + joined(rotor->support, ", ", printable) + ".",
           "In multiblade coordinates (collective, cosine, sine, ...) all coefficients are constant; s is "
           "seen from the "
           "frame that stands."};

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/core/text.hpp"
@@ -68,10 +69,8 @@ Records records_of(const std::vector<ShownPoint>& points) {
 
 /// Prints "  LABEL: 1, 4", or nothing if there are none.
 void print_modes(const char* label, const std::vector<std::size_t>& modes) {
-  if (modes.empty()) return;
-  std::string list;
-  for (const std::size_t mode : modes) list += (list.empty() ? "" : ", ") + std::to_string(mode);
-  std::printf("  %s: %s\n", label, list.c_str());
+  const auto text = [](std::size_t mode) { return std::to_string(mode); };
+  if (!modes.empty()) std::printf("  %s: %s\n", label, joined(modes, ", ", text).c_str());
 }
 
 std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {

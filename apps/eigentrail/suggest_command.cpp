@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 
@@ -7,6 +6,7 @@
 #include "eigentrail/accuracy/suggest.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/units.hpp"
+#include "import/text_lines.hpp"
 #include "output.hpp"
 #include "records.hpp"
 #include "samples_info.hpp"
@@ -25,11 +25,7 @@ Scene scene_of(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".h5") return read_scene(path);
   const SampledData data = samples_in(path);
   const std::string file = std::filesystem::path(path).filename().string();
-  const std::string& name = data.parameter_name;
-  const bool known_name =
-      !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-  const std::string parameter = known_name ? name : "p";
+  const std::string parameter = is_identifier(data.parameter_name) ? data.parameter_name : "p";
   const bool known_unit = data.parameter_unit != "1" && unit_factor(data.parameter_unit).has_value();
   std::string text = "[parameters]\n" + parameter + " = { value = " + exact_text(data.values.front()) +
                      (known_unit ? ", unit = \"" + data.parameter_unit + "\"" : "") + " }\n";

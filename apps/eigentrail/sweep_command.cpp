@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
 #include "scene_arguments.hpp"
@@ -119,11 +120,8 @@ int finish_sweep(const std::string& header, const std::vector<std::string>& line
 
 SharedRun shared_run(const Scene& scene, const SweepArguments& arguments, const Combinations& runs) {
   SharedRun run{"sweep", scene.path, settings_of(scene), runs.size()};
-  for (const Varied& one : runs.varied()) {
-    std::string values;
-    for (const double value : one.values) values += (values.empty() ? "" : ",") + exact_text(value);
-    run.settings.emplace_back("--vary " + one.name, values);
-  }
+  for (const Varied& one : runs.varied())
+    run.settings.emplace_back("--vary " + one.name, joined(one.values, ",", exact_text));
   for (const auto& [key, text] : arguments.options) run.settings.emplace_back("option " + key, text);
   run.settings.emplace_back("header", index_header(runs.varied()));
   return run;

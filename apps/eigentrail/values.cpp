@@ -31,13 +31,6 @@ InputError no_number(const std::string& option, const std::string& text, const s
   return InputError(option + ": expected " + expected + ", found \"" + text + "\"");
 }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text + separator);
-  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-  return parts;
-}
-
 /// The numbers of a list or a range. Those without a unit have that of the last one.
 std::vector<double> numbers(const std::vector<std::string>& texts, const Parameter& parameter,
                             const std::string& label) {
@@ -67,6 +60,13 @@ void append_range(std::vector<double>& values, const std::vector<double>& range,
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text + separator);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
 
 std::vector<double> read_values(const std::string& option, const std::vector<std::string>& texts,
                                 const Parameter& parameter) {

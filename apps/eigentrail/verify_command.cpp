@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 
 #include "commands.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/accuracy/verify.hpp"
 #include "output.hpp"
 
@@ -17,10 +17,8 @@ struct VerifyArguments {
 /// An error message if the text is no valid seed, otherwise empty. CLI11 would convert negative numbers and
 /// numbers that are too large to other ones without an error.
 std::string seed_fault(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), seed);
-  const bool whole = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
-  return whole ? "" : "expected a whole number from 0 to 18446744073709551615, found " + text;
+  if (parsed_number<std::uint64_t>(text)) return "";
+  return "expected a whole number from 0 to 18446744073709551615, found " + text;
 }
 
 /// Prints the faults of a comparison: the first ones, and how many there are more.
