@@ -1,10 +1,13 @@
 // Lists, numbers and letters in texts.
 #pragma once
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <functional>
 #include <optional>
+#include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +25,20 @@ std::string joined(const List& list, std::string_view separator = ", ", Text tex
     first = false;
   }
   return all;
+}
+
+/// The first items of a list, `most` at most.
+template <class Item>
+std::span<const Item> first_items(const std::vector<Item>& list, std::size_t most) {
+  return std::span(list).first(std::min(most, list.size()));
+}
+
+/// The parts of a text between separators.
+inline std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text + separator);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
 }
 
 /// "a, b and c", with `last` before the last one.

@@ -108,9 +108,7 @@ BeamDynAxis parse_beamdyn_axis(std::string_view text, const std::string& path) {
   axis.path = path;
   InputLines lines(text, path);
   std::size_t count = 0;
-  while (true) {
-    const std::vector<std::string_view> words = lines.next();
-    if (words.empty()) break;
+  for (auto words = lines.next(); !words.empty(); words = lines.next()) {
     if (has_name(words, "kp_total")) count = lines.count(words[0], "kp_total", limits::list_length);
     if (has_name(words, "BldFile")) axis.blade_file = without_quotes(words[0]);
     if (!equal_words(words[0], "kp_xr")) continue;

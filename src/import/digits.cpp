@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -55,8 +56,7 @@ std::optional<int> digits_of(const SampledData& data) {
       }
     }
   }
-  std::size_t all = 0;
-  for (const std::size_t count : entries) all += count;
+  const std::size_t all = std::accumulate(entries.begin(), entries.end(), std::size_t{0});
   const std::size_t full = entries[static_cast<std::size_t>(digits)];
   const bool clear =
       full >= fewest_entries && static_cast<double>(full) >= least_share * static_cast<double>(all);

@@ -70,8 +70,7 @@ class DmigReader {
     const std::vector<std::string_view> fields = fields_of(line);
     const std::string name = upper_case(std::string(fields[0]));
     if (name.empty()) lines_.fail("DMIG without the name of a matrix");
-    const auto found =
-        std::find_if(matrices_.begin(), matrices_.end(), [&](const DmigMatrix& m) { return m.name == name; });
+    const auto found = std::ranges::find_if(matrices_, [&](const DmigMatrix& m) { return m.name == name; });
     if (fields[1] == "0") {
       if (found != matrices_.end()) lines_.fail("matrix " + printable(name) + " has two headers");
       read_header(name, fields);
@@ -150,7 +149,7 @@ std::string name_of(const DmigFreedom& freedom) {
 Matrix dense_matrix(const DmigMatrix& matrix, const std::vector<DmigFreedom>& freedoms) {
   const auto n = static_cast<Eigen::Index>(freedoms.size());
   const auto place = [&freedoms](const DmigFreedom& freedom) {
-    return std::lower_bound(freedoms.begin(), freedoms.end(), freedom) - freedoms.begin();
+    return std::ranges::lower_bound(freedoms, freedom) - freedoms.begin();
   };
   // NaN stands for entries that are not given.
   Matrix result = Matrix::Constant(n, n, NAN);

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <set>
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -96,25 +96,22 @@ ElastoDynRotor parse_elastodyn_rotor(std::string_view text, const std::string& p
   ElastoDynRotor rotor;
   rotor.path = path;
   InputLines lines(text, path);
-  bool has_tip = false, has_hub = false;
-  while (true) {
-    const std::vector<std::string_view> words = lines.next();
-    if (words.empty()) break;
-    if (has_name(words, "TipRad")) {
-      rotor.tip_radius = lines.number(words[0], "TipRad");
-      has_tip = true;
-    } else if (has_name(words, "HubRad")) {
-      rotor.hub_radius = lines.number(words[0], "HubRad");
-      has_hub = true;
-    } else if (has_name(words, "PreCone(1)")) {
-      rotor.precone = lines.number(words[0], "PreCone(1)");
-    } else if (has_name(words, "RotSpeed")) {
-      rotor.rotor_speed = lines.number(words[0], "RotSpeed");
-    } else if (has_name(words, "BldFile(1)") || has_name(words, "BldFile1")) {
-      rotor.blade_file = without_quotes(words[0]);
+  std::map<std::string, double*> wanted = {{"TipRad", &rotor.tip_radius},
+                                           {"HubRad", &rotor.hub_radius},
+                                           {"PreCone(1)", &rotor.precone},
+                                           {"RotSpeed", &rotor.rotor_speed}};
+  std::set<std::string> found;
+  for (auto words = lines.next(); !words.empty(); words = lines.next()) {
+    for (const auto& [name, value] : wanted) {
+      if (!has_name(words, name)) continue;
+      *value = lines.number(words[0], name);
+      found.insert(name);
     }
+    if (has_name(words, "BldFile(1)") || has_name(words, "BldFile1"))
+      rotor.blade_file = without_quotes(words[0]);
   }
-  if (!has_tip || !has_hub) lines.fail("no TipRad and HubRad; is this a main file of ElastoDyn?");
+  if (!found.contains("TipRad") || !found.contains("HubRad"))
+    lines.fail("no TipRad and HubRad; is this a main file of ElastoDyn?");
   if (rotor.hub_radius < 0.0 || !(rotor.tip_radius > rotor.hub_radius))
     lines.fail("expected 0 <= HubRad < TipRad; they are " + short_text(rotor.hub_radius) + " and " +
                short_text(rotor.tip_radius));
@@ -123,11 +120,10 @@ ElastoDynRotor parse_elastodyn_rotor(std::string_view text, const std::string& p
 
 bool names_value(std::string_view text, std::string_view name) {
   InputLines lines(text, "");
-  while (true) {
-    const std::vector<std::string_view> words = lines.next();
-    if (words.empty()) return false;
+  for (auto words = lines.next(); !words.empty(); words = lines.next()) {
     if (has_name(words, name) || equal_words(words[0], name)) return true;
   }
+  return false;
 }
 
 }  // namespace eigentrail

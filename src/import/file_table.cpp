@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/text_lines.hpp"
@@ -37,16 +38,14 @@ class TableOfFiles {
  private:
   std::vector<std::string> cells_of(std::string_view row) {
     std::vector<std::string> cells;
-    while (true) {
-      const std::size_t comma = row.find(',');
-      std::string_view cell = trimmed(row.substr(0, comma));
+    for (const std::string& part : split(std::string(row), ',')) {
+      std::string_view cell = trimmed(part);
       if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
         cell = cell.substr(1, cell.size() - 2);
-      cells.emplace_back(cell);
-      if (comma == std::string_view::npos) return cells;
       if (cells.size() > most_columns) lines_.fail("more than " + std::to_string(most_columns) + " columns");
-      row.remove_prefix(comma + 1);
+      cells.emplace_back(cell);
     }
+    return cells;
   }
 
   void read_titles(const std::vector<std::string>& cells) {

@@ -74,8 +74,7 @@ class LinReader {
   }
 
   LinQuantity row(std::string_view line, const std::vector<std::string_view>& words) {
-    const auto flag =
-        std::find_if(words.begin(), words.end(), [](std::string_view w) { return w == "T" || w == "F"; });
+    const auto flag = std::ranges::find_if(words, [](std::string_view w) { return w == "T" || w == "F"; });
     std::string_view first = words.size() > 1 ? words[1] : std::string_view();
     if (!first.empty() && first.back() == ',') first.remove_suffix(1);
     const auto value = number_of(first);
@@ -105,14 +104,13 @@ class LinReader {
     const auto columns = words.size() == 3 ? whole_number_of(words[2]) : std::nullopt;
     if (!rows || !columns || *rows != *columns || *rows < 1 || *rows > limits::matrix_rows)
       lines_.fail("expected 'A: n x n' with n up to " + std::to_string(limits::matrix_rows));
-    std::vector<std::vector<double>> all;
+    std::vector<double> entries;  // row by row
     file_.digits = 1;
-    for (long r = 0; r < *rows; ++r) all.push_back(matrix_row(static_cast<std::size_t>(*columns), r));
-    file_.A.resize(*rows, *columns);
     for (long r = 0; r < *rows; ++r) {
-      for (long c = 0; c < *columns; ++c)
-        file_.A(r, c) = all[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+      const std::vector<double> row = matrix_row(static_cast<std::size_t>(*columns), r);
+      entries.insert(entries.end(), row.begin(), row.end());
     }
+    file_.A = Matrix::Map(entries.data(), *columns, *rows).transpose();
   }
 
   std::vector<double> matrix_row(std::size_t count, long r) {

@@ -46,8 +46,7 @@ class MarketImport {
   explicit MarketImport(const ImportRequest& request) : request_(request) {}
 
   Imported read() {
-    const bool table = std::any_of(request_.files.begin(), request_.files.end(),
-                                   [](const auto& f) { return is_file_table(f); });
+    const bool table = std::ranges::any_of(request_.files, [](const auto& f) { return is_file_table(f); });
     if (table && request_.files.size() > 1)
       throw InputError("matrix-market: expected one table (.csv), or files of matrices (.mtx)");
     if (table) {
@@ -130,7 +129,7 @@ class MarketImport {
 
   /// Whether there is this matrix, of any power.
   static bool has(const std::vector<Coefficient>& all, char letter) {
-    return std::any_of(all.begin(), all.end(), [&](const Coefficient& c) { return c.letter == letter; });
+    return std::ranges::any_of(all, [&](const Coefficient& c) { return c.letter == letter; });
   }
 
   static void check_forms(const std::vector<Coefficient>& all) {
@@ -140,8 +139,8 @@ class MarketImport {
     if (second && (!has(all, 'K') || (!has(all, 'M') && !has(all, 'C'))))
       fail("expected K with M, C or both, or A and optionally E; a file is missing");
     if (!second && !has(all, 'A')) fail("E without A; the equations are E x' = A x");
-    const Coefficient& first = *std::find_if(
-        all.begin(), all.end(), [&](const Coefficient& c) { return !second || c.letter != 'A'; });
+    const Coefficient& first =
+        *std::ranges::find_if(all, [&](const Coefficient& c) { return !second || c.letter != 'A'; });
     const Eigen::Index n = first.matrix.cols();
     const Coefficient* constraints = nullptr;
     for (const Coefficient& one : all) {
@@ -251,7 +250,7 @@ class MarketImport {
       }
       if (list == nullptr)
         throw InputError(table.path + ": column '" + printable(title) + "': expected M, C, K, E or A");
-      if (std::find(lists.begin(), lists.end(), list) != lists.end())
+      if (std::ranges::find(lists, list) != lists.end())
         throw InputError(table.path + ": has two columns " + title);
       lists.push_back(list);
     }

@@ -6,7 +6,6 @@
 #include <functional>
 #include <numeric>
 #include <optional>
-#include <ranges>
 #include <set>
 
 #include "core/texts.hpp"
@@ -89,14 +88,12 @@ class ArrayReader {
   }
 
   const NamedArray* find(const std::string& name) const {
-    const auto found =
-        std::find_if(arrays_.begin(), arrays_.end(), [&](const NamedArray& a) { return a.name == name; });
+    const auto found = std::ranges::find(arrays_, name, &NamedArray::name);
     return found == arrays_.end() ? nullptr : &*found;
   }
 
   const Family* find_family(const std::string& stem) const {
-    const auto found =
-        std::find_if(families_.begin(), families_.end(), [&](const Family& f) { return f.stem == stem; });
+    const auto found = std::ranges::find(families_, stem, &Family::stem);
     return found == families_.end() ? nullptr : &*found;
   }
 
@@ -172,7 +169,7 @@ class ArrayReader {
     }
     data.A_error = matrices("A_error");
     if (samples_ > 0) return;
-    const std::string list = joined(arrays_ | std::views::take(20), ", ", &NamedArray::name);
+    const std::string list = joined(first_items(arrays_, 20), ", ", &NamedArray::name);
     fail("no matrices: expected arrays A (and E), or K with M or C; found " + (list.empty() ? "none" : list));
   }
 
@@ -234,8 +231,7 @@ class ArrayReader {
   /// The numbers of an array or of numbered single ones, if there is one for each sample.
   std::optional<std::vector<double>> numbers_per_sample(const std::string& name) const {
     if (const NamedArray* array = find(name)) {
-      const std::size_t longest =
-          array->shape.empty() ? 1 : *std::max_element(array->shape.begin(), array->shape.end());
+      const std::size_t longest = array->shape.empty() ? 1 : *std::ranges::max_element(array->shape);
       if (array->is_text || array->size() != samples_ || longest != samples_) return std::nullopt;
       return array->numbers;
     }
@@ -252,7 +248,7 @@ class ArrayReader {
   static bool describes_states(const std::string& name) {
     static const std::vector<std::string> names = {"state_names", "states",           "names", "state_units",
                                                    "units",       "derivative_order", "order", "frame"};
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::ranges::find(names, name) != names.end();
   }
 
   /// Arrays with one number per sample that rise or fall from sample to sample.
@@ -267,8 +263,8 @@ class ArrayReader {
           result_.samples.size() == 1 && name.size() == 1 && std::string("MCKEA").find(name) < 5;
       if (!values || is_matrix || describes_states(name)) continue;
       const auto rises = [](const std::vector<double>& list, auto less) {
-        return std::adjacent_find(list.begin(), list.end(),
-                                  [&](double a, double b) { return !less(a, b); }) == list.end();
+        return std::ranges::adjacent_find(list, [&](double a, double b) { return !less(a, b); }) ==
+               list.end();
       };
       if (rises(*values, std::less<>()) || rises(*values, std::greater<>())) result.push_back(name);
     }
@@ -316,8 +312,8 @@ class ArrayReader {
       const auto values = numbers_per_sample(array.name);
       if (!values || array.shape.empty()) continue;
       std::vector<double> sorted = *values;
-      std::sort(sorted.begin(), sorted.end());
-      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      std::ranges::sort(sorted);
+      const auto twice = std::ranges::adjacent_find(sorted);
       text += "; array " + array.name +
               (twice != sorted.end()
                    ? " has the value " + exact_text(*twice) + " twice: leave one of the two samples out"
@@ -384,7 +380,7 @@ class ArrayReader {
     const SampledData& data = result_.samples;
     const std::string matrices = matrices_in(data);
     const std::string size = std::to_string(data.size()) + " x " + std::to_string(data.size());
-    const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
+    const auto [least, most] = std::ranges::minmax_element(data.values);
     if (samples_ > 1 || *least != 0.0)
       result_.understood.push_back(count_of(samples_, "sample") + " of " + matrices + ", " + size + ", at " +
                                    result_.parameter + " = " + exact_text(*least) +

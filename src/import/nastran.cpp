@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <ranges>
 #include <stdexcept>
 
 #include "core/texts.hpp"
@@ -69,7 +68,7 @@ class NastranImport {
     const std::vector<std::string>& files = request_.files;
     std::string parameter = "p", unit;
     std::vector<PointFiles> points;
-    if (std::any_of(files.begin(), files.end(), is_file_table)) {
+    if (std::ranges::any_of(files, is_file_table)) {
       if (files.size() > 1 || request_.options.contains("values"))
         throw InputError("nastran: expected one table (.csv), or files of matrices and --values");
       const FileTable table = parse_file_table(read_text_file(files[0]), files[0]);
@@ -95,35 +94,30 @@ class NastranImport {
   std::vector<double> listed_values() const {
     std::vector<double> values;
     const std::string text = request_.option("values");
-    std::string_view rest = text;
-    while (true) {
-      const std::size_t comma = rest.find(',');
-      const auto value = number_of(trimmed(rest.substr(0, comma)));
+    for (const std::string& part : split(text, ',')) {
+      const auto value = number_of(trimmed(part));
       if (!value || !std::isfinite(*value))
         throw InputError("--values: expected numbers separated by commas, found '" + printable(text) + "'");
-      if (std::find(values.begin(), values.end(), *value) != values.end())
+      if (std::ranges::find(values, *value) != values.end())
         throw InputError("--values: has " + exact_text(*value) + " twice");
       values.push_back(*value);
       if (values.size() > limits::samples)
         throw InputError("--values: more than " + std::to_string(limits::samples) + " numbers");
-      if (comma == std::string_view::npos) return values;
-      rest.remove_prefix(comma + 1);
     }
+    return values;
   }
-
-  static bool same_name(const std::string& a, const std::string& b) { return equal_words(a, b); }
 
   /// Whether a matrix may have a role: the name that the option says or, without one, the first letter. K4...
   /// is structural damping, which belongs to responses at one frequency.
   bool may_be(const Role& role, const std::string& name) const {
     const auto asked = request_.options.find(role.option);
-    if (asked != request_.options.end()) return same_name(asked->second, name);
+    if (asked != request_.options.end()) return equal_words(asked->second, name);
     return !name.empty() && std::toupper(static_cast<unsigned char>(name[0])) == role.letter &&
            !name.starts_with("K4");
   }
 
   bool wanted(const std::string& name) const {
-    return std::any_of(roles.begin(), roles.end(), [&](const Role& role) { return may_be(role, name); });
+    return std::ranges::any_of(roles, [&](const Role& role) { return may_be(role, name); });
   }
 
   std::vector<NastranMatrix> matrices_in(const std::string& file) const {
@@ -156,7 +150,7 @@ class NastranImport {
         throw InputError(one.file + ": the " + role.option + " may be " + printable(result->dense.name) +
                          (result->file == one.file ? "" : " of " + result->file) + " or " +
                          printable(one.dense.name) +
-                         (same_name(result->dense.name, one.dense.name)
+                         (equal_words(result->dense.name, one.dense.name)
                               ? "; files of one operating point have each matrix once"
                               : "; name it with --" + std::string(role.option)));
       result = &one;
@@ -174,7 +168,7 @@ class NastranImport {
   static std::string names_of(const std::vector<NastranMatrix>& all) {
     constexpr std::size_t most = 20;
     const auto name = [](const NastranMatrix& one) { return printable(one.dense.name); };
-    return "found " + joined(all | std::views::take(most), ", ", name) + (all.size() > most ? ", ..." : "");
+    return "found " + joined(first_items(all, most), ", ", name) + (all.size() > most ? ", ..." : "");
   }
 
   void add_sample(const PointFiles& point) {
@@ -217,8 +211,7 @@ class NastranImport {
     }
     std::string others;
     for (const NastranMatrix& one : all) {
-      if (std::find(own.begin(), own.end(), &one) == own.end())
-        others += (others.empty() ? "" : ", ") + one.dense.name;
+      if (std::ranges::find(own, &one) == own.end()) others += (others.empty() ? "" : ", ") + one.dense.name;
       if (one.dense.name.starts_with("K4"))
         result_.warnings.push_back(one.dense.name + " is structural damping, which is not read");
     }
@@ -267,7 +260,7 @@ class NastranImport {
         freedoms.push_back(entry.column);
       }
     }
-    std::sort(freedoms.begin(), freedoms.end());
+    std::ranges::sort(freedoms);
     freedoms.erase(std::unique(freedoms.begin(), freedoms.end()), freedoms.end());
     if (freedoms.empty()) throw InputError(file + ": the matrices have no entries");
     if (freedoms.size() > limits::matrix_rows)

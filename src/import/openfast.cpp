@@ -100,7 +100,7 @@ class OpenFastImport {
   }
 
   static bool varies(const std::vector<double>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const auto [least, most] = std::ranges::minmax_element(values);
     return *most - *least > same_operating_point * std::max(std::abs(*least), std::abs(*most));
   }
 
@@ -142,9 +142,8 @@ class OpenFastImport {
   std::vector<OperatingPointFiles> operating_points(const Parameter& parameter) const {
     std::vector<OperatingPointFiles> points;
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      const auto found = std::find_if(points.begin(), points.end(), [&](const OperatingPointFiles& point) {
-        return same_point(point.files[0], i);
-      });
+      const auto found = std::ranges::find_if(
+          points, [&](const OperatingPointFiles& point) { return same_point(point.files[0], i); });
       if (found == points.end()) {
         points.push_back({{i}, 0.0});
       } else {
@@ -156,8 +155,7 @@ class OpenFastImport {
       for (const std::size_t i : point.files)
         point.parameter += parameter.values[i] / static_cast<double>(point.files.size());
     }
-    std::sort(points.begin(), points.end(),
-              [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
+    std::ranges::sort(points, [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
     for (std::size_t i = 1; i < points.size(); ++i) {
       if (points[i].parameter == points[i - 1].parameter)
         throw InputError("openfast: " + files_[points[i - 1].files[0]].path + " and " +
@@ -243,7 +241,7 @@ class OpenFastImport {
   }
 
   bool turning(const std::vector<OperatingPointFiles>& points) const {
-    return std::any_of(points.begin(), points.end(), [this](const OperatingPointFiles& point) {
+    return std::ranges::any_of(points, [this](const OperatingPointFiles& point) {
       return point.files.size() == 1 && files_[point.files[0]].rotor_speed != 0.0;
     });
   }

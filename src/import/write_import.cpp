@@ -61,7 +61,7 @@ std::string samples_file(const SampledData& data) {
   std::vector<std::string> frames;
   for (const StateFrame frame : data.state_frames) frames.emplace_back(frame_name(frame));
   write_list(file, "frame", frames);
-  if (data.digits) file.set_attribute("digits", static_cast<std::int64_t>(*data.digits));
+  if (data.digits) file.set_attribute("digits", *data.digits);
   if (!data.source.empty()) file.set_attribute("source", data.source);
   return file.image();
 }
@@ -169,10 +169,9 @@ std::string scene_text(const Imported& imported, const std::string& file) {
   }
   const SampledData& samples = imported.samples;
   const std::optional<PolynomialData>& family = imported.family;
-  const auto [least, largest] =
-      family ? std::pair(family->from, family->to)
-             : std::pair(*std::min_element(samples.values.begin(), samples.values.end()),
-                         *std::max_element(samples.values.begin(), samples.values.end()));
+  const auto [least, largest] = family ? std::pair(family->from, family->to)
+                                       : std::pair(*std::ranges::min_element(samples.values),
+                                                   *std::ranges::max_element(samples.values));
   const std::string& unit = family ? family->parameter_unit : samples.parameter_unit;
   const bool known_unit = !unit.empty() && unit_factor(unit).has_value();
   std::string text = "title = " + quoted(imported.title) + "\n\n";
