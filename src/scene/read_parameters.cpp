@@ -12,7 +12,7 @@ namespace eigentrail {
 bool is_parameter_name(std::string_view text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   return !text.empty() && letter(text[0]) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+         std::ranges::all_of(text, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
 namespace {
@@ -26,7 +26,7 @@ class ParameterReader {
   Parameters read(const std::optional<Parameter>& implied) {
     if (table_.entries.size() > limits::parameters) {
       const auto& [name, value] = table_.entries[limits::parameters];
-      fail(value, name, "is one too many; a scene has at most " + std::to_string(limits::parameters));
+      fail(value.where, name, "is one too many; a scene has at most " + std::to_string(limits::parameters));
     }
     for (const auto& [name, value] : table_.entries) names_.push_back(name);
     std::vector<Parameter> list;
@@ -41,7 +41,7 @@ class ParameterReader {
       return Parameters(list);
     } catch (const ParameterCycle& cycle) {
       const Parameter& parameter = list[static_cast<std::size_t>(cycle.parameter)];
-      throw scene_error(scene_, parameter.where, "[parameters] " + parameter.name + ": " + cycle.what());
+      fail(parameter.where, parameter.name, cycle.what());
     }
   }
 
@@ -51,11 +51,12 @@ class ParameterReader {
     parameter.name = name;
     parameter.where = entry.where;
     if (!is_parameter_name(name))
-      fail(entry, name, "a parameter's name is letters, digits and '_', so that expressions can use it");
+      fail(entry.where, name,
+           "a parameter's name is letters, digits and '_', so that expressions can use it");
     const Value* value = &entry;
     if (const auto* fields = std::get_if<Table>(&entry.data)) {
       value = fields->find("value");
-      if (value == nullptr) fail(entry, name, "expected value = ...");
+      if (value == nullptr) fail(entry.where, name, "expected value = ...");
       for (const auto& [key, field] : fields->entries) read_field(parameter, key, field);
     }
     set_value(parameter, *value);
@@ -65,11 +66,12 @@ class ParameterReader {
   void read_field(Parameter& parameter, const std::string& key, const Value& field) {
     if (key == "value") return;
     if (key != "unit")
-      fail(field, parameter.name, "unknown key '" + key + "'; " + suggestion(key, {"value", "unit"}));
+      fail(field.where, parameter.name, "unknown key '" + key + "'; " + suggestion(key, {"value", "unit"}));
     const auto* unit = std::get_if<std::string>(&field.data);
-    if (unit == nullptr) fail(field, parameter.name, "unit: expected a text, found " + field.kind());
+    if (unit == nullptr) fail(field.where, parameter.name, "unit: expected a text, found " + field.kind());
     const auto known = parse_unit(*unit);
-    if (!known) fail(field, parameter.name, "unit '" + *unit + "' is not known; " + unit_suggestion(*unit));
+    if (!known)
+      fail(field.where, parameter.name, "unit '" + *unit + "' is not known; " + unit_suggestion(*unit));
     parameter.unit = *unit;
     parameter.factor = known->factor;
     if (!unit->empty()) parameter.dimension = known->dimension;
@@ -78,26 +80,24 @@ class ParameterReader {
 
   void set_value(Parameter& parameter, const Value& value) {
     if (const auto* number = std::get_if<double>(&value.data)) {
-      if (!std::isfinite(*number)) fail(value, parameter.name, "expected a finite number");
+      if (!std::isfinite(*number)) fail(value.where, parameter.name, "expected a finite number");
       parameter.value = *number;
     } else if (const auto* text = std::get_if<std::string>(&value.data)) {
       try {
         parameter.definition = Expression::parse(*text, names_);
       } catch (const ExpressionError& error) {
-        fail(value, parameter.name,
+        fail(value.where, parameter.name,
              "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
       }
     } else {
-      fail(value, parameter.name, "expected a number or an expression, found " + value.kind());
+      fail(value.where, parameter.name, "expected a number or an expression, found " + value.kind());
     }
   }
 
   /// Checks the dimensions in a definition, and decides what its value is: one of known dimension is a
   /// quantity, any other is the number of the parameter's units.
   void settle_definition(Parameter& parameter, const std::vector<Parameter>& list) const {
-    const auto fault = [&](const std::string& message) {
-      throw scene_error(scene_, parameter.where, "[parameters] " + parameter.name + ": " + message);
-    };
+    const auto fault = [&](const std::string& message) { fail(parameter.where, parameter.name, message); };
     try {
       const ExpressionDimension found = dimension_of(*parameter.definition, list);
       if (!parameter.dimension) return;
@@ -108,9 +108,8 @@ class ParameterReader {
         return;
       }
       const auto& used = parameter.definition->parameters();
-      const auto with_unit = std::find_if(used.begin(), used.end(), [&list](int i) {
-        return list[static_cast<std::size_t>(i)].dimension.has_value();
-      });
+      const auto with_unit = std::ranges::find_if(
+          used, [&list](int i) { return list[static_cast<std::size_t>(i)].dimension.has_value(); });
       if (with_unit == used.end() || parameter.factor == 1.0) return;
       fault("it is not known whether its value is in " + parameter.unit +
             " or in SI units: " + list[static_cast<std::size_t>(*with_unit)].name +
@@ -121,8 +120,8 @@ class ParameterReader {
     }
   }
 
-  [[noreturn]] void fail(const Value& value, const std::string& name, const std::string& message) const {
-    throw scene_error(scene_, value.where, "[parameters] " + name + ": " + message);
+  [[noreturn]] void fail(SourceLocation where, const std::string& name, const std::string& message) const {
+    throw scene_error(scene_, where, "[parameters] " + name + ": " + message);
   }
 
   const Scene& scene_;

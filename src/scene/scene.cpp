@@ -40,13 +40,9 @@ void set_start_of_trace(Scene& scene, const std::string& name) {
   const Expression from = TableReader(scene, trace, "[trace]", used).expression("from");
   Vector values = scene.parameters.declared_values();
   scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
-  std::vector<Parameter> list;
-  for (std::size_t i = 0; i < scene.parameters.size(); ++i) {
-    list.push_back(scene.parameters[i]);
-    if (list.back().name == name) {
-      list.back().value = from.evaluate(std::span<const double>(values.data(), scene.parameters.size()));
-    }
-  }
+  std::vector<Parameter> list = scene.parameters.list();
+  list[static_cast<std::size_t>(*scene.parameters.index(name))].value =
+      from.evaluate(std::span<const double>(values.data(), list.size()));
   scene.parameters = Parameters(std::move(list));
 }
 

@@ -1,5 +1,6 @@
 #include "eigentrail/scene/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <utility>
@@ -139,44 +140,36 @@ std::optional<Unit> term_unit(std::string_view term) {
   return base ? std::optional(power_of(*base, *exponent)) : std::nullopt;
 }
 
-/// Length in bytes of a separator at the beginning of `text`, 0 if there is none.
-std::size_t separator_length(std::string_view text) {
-  if (text.starts_with("·")) return std::string_view("·").size();
-  return text.starts_with(' ') || text.starts_with('*') || text.starts_with('/') ? 1 : 0;
-}
-
-/// Length of the part of `text` before the next separator.
-std::size_t term_length(std::string_view text) {
-  std::size_t length = 0;
-  while (length < text.size() && separator_length(text.substr(length)) == 0) ++length;
-  return length;
-}
+/// What stands between units, with a point in the middle written as '*'.
+constexpr std::string_view separators = " */";
 
 }  // namespace
 
 std::optional<Unit> parse_unit(std::string_view unit) {
+  const std::string text = replaced_all(std::string(unit), "·", "*");
+  std::string_view rest = text;
   Unit result;
   bool divide = false;
   bool expect_term = false;
-  while (!unit.empty()) {
-    if (const std::size_t length = separator_length(unit); length > 0) {
-      if (unit.front() != ' ') {
+  while (!rest.empty()) {
+    if (separators.find(rest.front()) != std::string_view::npos) {
+      if (rest.front() != ' ') {
         if (expect_term) return std::nullopt;
         expect_term = true;
-        divide = unit.front() == '/';
+        divide = rest.front() == '/';
       }
-      unit.remove_prefix(length);
+      rest.remove_prefix(1);
       continue;
     }
-    const std::size_t length = term_length(unit);
-    const auto term = term_unit(unit.substr(0, length));
+    const std::size_t length = std::min(rest.find_first_of(separators), rest.size());
+    const auto term = term_unit(rest.substr(0, length));
     if (!term) return std::nullopt;
     result.factor = divide ? result.factor / term->factor : result.factor * term->factor;
     result.dimension = divide ? result.dimension / term->dimension : result.dimension * term->dimension;
     result.angle = result.angle || term->angle;
     divide = false;
     expect_term = false;
-    unit.remove_prefix(length);
+    rest.remove_prefix(length);
   }
   const bool usable = !expect_term && std::isfinite(result.factor) && result.factor > 0.0;
   return usable ? std::optional(result) : std::nullopt;
