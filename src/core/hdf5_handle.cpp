@@ -30,16 +30,10 @@ void fail_hdf5(const std::string& action) {
 }
 
 Handle memory_type(ElementType type) {
-  switch (type) {
-    case ElementType::complex:
-      return complex_type();
-    case ElementType::text:
-      return text_type();
-    case ElementType::integer:
-      return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose, "make an integer type"};
-    default:
-      return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, "make a real type"};
-  }
+  if (type == ElementType::complex) return complex_type();
+  if (type == ElementType::text) return text_type();
+  return {H5Tcopy(type == ElementType::integer ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE), H5Tclose,
+          "make a type of numbers"};
 }
 
 }  // namespace eigentrail

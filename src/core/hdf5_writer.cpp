@@ -18,14 +18,6 @@ struct Hdf5Writer::Implementation {
   Handle dataset(const std::string& name) const {
     return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path};
   }
-
-  Shape shape(const std::string& name) const {
-    const Handle set = dataset(name);
-    const Handle space(H5Dget_space(set), H5Sclose, "read the shape of " + name);
-    std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
-    return {dims.begin(), dims.end()};
-  }
 };
 
 namespace {
@@ -247,7 +239,7 @@ void Hdf5Writer::set_attribute(const std::string& name, const std::string& value
 void Hdf5Writer::set_attribute(const std::string& name, double value) {
   write_attribute(implementation_->file, name, H5T_NATIVE_DOUBLE, &value);
 }
-void Hdf5Writer::set_attribute(const std::string& name, std::int64_t value) {
+void Hdf5Writer::set_integer(const std::string& name, std::int64_t value) {
   write_attribute(implementation_->file, name, H5T_NATIVE_INT64, &value);
 }
 
@@ -256,18 +248,11 @@ bool Hdf5Writer::has(const std::string& dataset) const {
 }
 
 Shape Hdf5Writer::shape(const std::string& dataset) const {
-  return implementation_->shape(dataset);
-}
-
-std::string Hdf5Writer::units(const std::string& dataset) const {
-  const std::string action = "read the units of " + dataset;
   const Handle set = implementation_->dataset(dataset);
-  const Handle attribute(H5Aopen(set, "units", H5P_DEFAULT), H5Aclose, action);
-  char* text = nullptr;
-  check(H5Aread(attribute, memory_type(ElementType::text), &text), action);
-  const std::string units = text == nullptr ? "" : text;
-  H5free_memory(text);
-  return units;
+  const Handle space(H5Dget_space(set), H5Sclose, "read the shape of " + dataset);
+  std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + dataset);
+  return {dims.begin(), dims.end()};
 }
 
 }  // namespace eigentrail

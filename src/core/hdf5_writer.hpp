@@ -1,6 +1,7 @@
 // Writing HDF5 files, in this process. What they hold comes from it.
 #pragma once
 
+#include <concepts>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -66,7 +67,10 @@ class Hdf5Writer {
   /// Attributes of the root group; an existing attribute is replaced.
   void set_attribute(const std::string& name, const std::string& value);
   void set_attribute(const std::string& name, double value);
-  void set_attribute(const std::string& name, std::int64_t value);
+  template <std::integral Integer>
+  void set_attribute(const std::string& name, Integer value) {
+    set_integer(name, static_cast<std::int64_t>(value));
+  }
 
   void flush();
 
@@ -75,12 +79,11 @@ class Hdf5Writer {
 
   bool has(const std::string& dataset) const;
   Shape shape(const std::string& dataset) const;
-  /// The attribute `units` of a dataset.
-  std::string units(const std::string& dataset) const;
 
  private:
   struct Implementation;
   explicit Hdf5Writer(Implementation implementation);
+  void set_integer(const std::string& name, std::int64_t value);
   void write(const std::string& dataset, std::uint64_t first_row, ElementType type, std::size_t count,
              const void* data);
 

@@ -118,6 +118,12 @@ void check_storage(hid_t set, hid_t space, const Shape& shape, std::size_t eleme
     throw Hdf5Error(name + " is too large: more elements than the file holds");
 }
 
+/// Adds the name of a link or an attribute to a list of names.
+constexpr auto collect_name = [](hid_t, const char* name, const auto*, void* list) -> herr_t {
+  static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+  return 0;
+};
+
 constexpr std::uint64_t most_in_attribute = 1U << 16U;
 
 std::optional<StoredArray> read_attribute(hid_t object, const char* name) {
@@ -165,11 +171,7 @@ bool Hdf5Source::has(const std::string& path) const {
 std::vector<std::string> Hdf5Source::members(const std::string& group) const {
   const Handle handle(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose, "open group " + group);
   std::vector<std::string> names;
-  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  check(H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list group " + group);
+  check(H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names), "list group " + group);
   return names;
 }
 
@@ -220,11 +222,7 @@ std::optional<StoredArray> Hdf5Source::read(const std::string& name, std::uint64
 std::map<std::string, StoredArray> Hdf5Source::attributes(const std::string& name) const {
   const Handle object(H5Oopen(file_, name.c_str(), H5P_DEFAULT), H5Oclose, "open " + name);
   std::vector<std::string> names;
-  const auto collect = [](hid_t, const char* attribute, const H5A_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(attribute);
-    return 0;
-  };
-  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names),
+  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names),
         "list attributes of " + name);
   std::map<std::string, StoredArray> attributes;
   for (const std::string& attribute : names) {

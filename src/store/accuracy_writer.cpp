@@ -15,8 +15,8 @@ void write_attributes(Hdf5Writer& file, const TraceSetup& setup, const StudyOpti
   write_provenance(file, accuracy_format, accuracy_schema_version, setup.scene, setup.options);
   file.set_attribute("reference", reference.s_ref);
   file.set_attribute("reference_correction", reference.correction);
-  file.set_attribute("reference_unsolved", std::int64_t{reference.unsolved});
-  file.set_attribute("repeat", std::int64_t{options.repeat});
+  file.set_attribute("reference_unsolved", reference.unsolved);
+  file.set_attribute("repeat", options.repeat);
 }
 
 void write_runs(Hdf5Writer& file, const std::vector<MeasuredRun>& runs, const std::string& parameter_unit) {

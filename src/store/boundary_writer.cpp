@@ -12,28 +12,25 @@ namespace eigentrail {
 namespace {
 
 void write_outcome(Hdf5Writer& file, const BoundaryOptions& options, const BoundaryResult& result) {
-  const auto number = [&file](const std::string& name, auto value) {
-    file.set_attribute(name, static_cast<std::int64_t>(value));
-  };
   file.set_attribute("second_from", options.second_from);
   file.set_attribute("second_to", options.second_to);
   file.set_attribute("damping_ratio", options.damping_ratio ? exact_text(*options.damping_ratio) : "none");
-  number("lines", options.lines);
+  file.set_attribute("lines", options.lines);
   file.set_attribute("reference", result.s_ref);
   write_notes(file, result.notes);
   file.set_attribute("status", result.status == BoundaryStatus::completed ? "completed" : "incomplete");
   file.set_attribute("message", result.message);
   file.set_attribute("seconds", result.seconds);
-  number("count_curves", result.curves.size());
-  number("count_corners", result.corners.size());
-  number("count_lines", result.lines);
-  number("count_seeds", result.seeds);
-  number("count_walks", result.walks);
-  number("count_islands", result.islands);
-  number("count_rejected_steps", result.rejected_steps);
-  number("count_mode_factorizations", result.counts.modes.factorizations);
-  number("count_spectra", result.counts.spectra);
-  number("count_equilibrium_factorizations", result.counts.equilibrium_factorizations);
+  file.set_attribute("count_curves", result.curves.size());
+  file.set_attribute("count_corners", result.corners.size());
+  file.set_attribute("count_lines", result.lines);
+  file.set_attribute("count_seeds", result.seeds);
+  file.set_attribute("count_walks", result.walks);
+  file.set_attribute("count_islands", result.islands);
+  file.set_attribute("count_rejected_steps", result.rejected_steps);
+  file.set_attribute("count_mode_factorizations", result.counts.modes.factorizations);
+  file.set_attribute("count_spectra", result.counts.spectra);
+  file.set_attribute("count_equilibrium_factorizations", result.counts.equilibrium_factorizations);
 }
 
 void write_dimensions(Hdf5Writer& file, const BoundarySetup& setup, const BoundaryResult& result,
@@ -63,21 +60,11 @@ void write_dimensions(Hdf5Writer& file, const BoundarySetup& setup, const Bounda
   dimension("member", std::vector<std::string>{"first", "second"}, "the two curves that meet in a corner");
 }
 
-/// A point, or a step and the number of its first point, with the number of its curve.
-struct PointOfCurve {
-  const BoundaryPoint* point;
-  std::size_t curve;
-};
-struct StepOfCurve {
-  const BoundaryStep* step;
-  std::size_t curve, first;
-};
-
 /// Rows of the functions, of each the series at both ends.
-std::vector<double> series_of(const BoundaryStep& step) {
+std::vector<double> series_of(const BoundaryStep* step) {
   std::vector<double> series;
-  for (Eigen::Index row = 0; row < step.left.rows(); ++row) {
-    for (const Matrix* end : {&step.left, &step.right})
+  for (Eigen::Index row = 0; row < step->left.rows(); ++row) {
+    for (const Matrix* end : {&step->left, &step->right})
       series.insert(series.end(), end->row(row).begin(), end->row(row).end());
   }
   return series;
@@ -85,14 +72,13 @@ std::vector<double> series_of(const BoundaryStep& step) {
 
 void write_points(Hdf5Writer& file, const BoundarySetup& setup, const BoundaryResult& result,
                   const Parameter& first, const Parameter& second) {
-  std::vector<PointOfCurve> points;
+  std::vector<const BoundaryPoint*> points;
+  std::vector<std::int64_t> curves;
   for (std::size_t i = 0; i < result.curves.size(); ++i) {
-    for (const BoundaryPoint& point : result.curves[i].points) points.push_back({&point, i});
+    for (const BoundaryPoint& point : result.curves[i].points) points.push_back(&point);
+    curves.resize(points.size(), static_cast<std::int64_t>(i));
   }
-  const auto of_point = [](auto member) {
-    return [member](const PointOfCurve& one) { return one.point->*member; };
-  };
-  const auto coordinate = [](int i) { return [i](const PointOfCurve& one) { return one.point->place[i]; }; };
+  const auto coordinate = [](int i) { return [i](const BoundaryPoint* point) { return point->place[i]; }; };
   write_column(file, {first.name, label_unit(first.unit), "first parameter " + first.name}, {"point"}, points,
                coordinate(0));
   write_column(file, {second.name, label_unit(second.unit), "second parameter " + second.name}, {"point"},
@@ -101,43 +87,45 @@ void write_points(Hdf5Writer& file, const BoundarySetup& setup, const BoundaryRe
   const auto write = [&](const DatasetLabel& label, const std::vector<std::string>& dimensions, auto field) {
     write_column(file, label, dimensions, points, field, attributes);
   };
-  write({"point_curve", "1", "curve that the point belongs to"}, {"point"}, &PointOfCurve::curve);
-  write({"eigenvalue", "1/s", "eigenvalue s on the boundary, Im s >= 0"}, {"point"},
-        of_point(&BoundaryPoint::s));
+  write_dataset(file, {"point_curve", "1", "curve that the point belongs to"}, {"point"}, curves, attributes);
+  write({"eigenvalue", "1/s", "eigenvalue s on the boundary, Im s >= 0"}, {"point"}, &BoundaryPoint::s);
   write({"tangent", "1",
          "direction of the curve in the parameters' units, of unit length where the window has side one"},
-        {"point", "parameter"}, of_point(&BoundaryPoint::tangent));
+        {"point", "parameter"}, &BoundaryPoint::tangent);
   write({"other_unstable", "1",
          "number of other modes that are unstable (less damped); 0: the point bounds the stable region"},
-        {"point"}, of_point(&BoundaryPoint::others));
+        {"point"}, &BoundaryPoint::others);
   write({"mode_shape", "1",
          "mode shape in physical coordinates, unit M-norm, its largest component real and positive"},
-        {"point", "coordinate"}, of_point(&BoundaryPoint::shape));
+        {"point", "coordinate"}, &BoundaryPoint::shape);
   write({"equilibrium", setup.model->description().coordinate_units[0], "steady equilibrium x0"},
-        {"point", "coordinate"}, of_point(&BoundaryPoint::equilibrium));
+        {"point", "coordinate"}, &BoundaryPoint::equilibrium);
   attributes["flag_meanings"] = "seed:1 edge:2 takens_bogdanov:4";
-  write({"flags", "1", "what is special about the point"}, {"point"}, of_point(&BoundaryPoint::flags));
+  write({"flags", "1", "what is special about the point"}, {"point"}, &BoundaryPoint::flags);
 }
 
 void write_steps(Hdf5Writer& file, const BoundaryResult& result) {
-  std::vector<StepOfCurve> steps;
-  std::size_t first = 0;
+  std::vector<const BoundaryStep*> steps;
+  std::vector<std::int64_t> curves, points;
+  std::int64_t first = 0;
   for (std::size_t i = 0; i < result.curves.size(); ++i) {
     const BoundaryCurve& curve = result.curves[i];
-    for (std::size_t k = 0; k < curve.steps.size(); ++k) steps.push_back({&curve.steps[k], i, first + k});
-    first += curve.points.size();
+    for (const BoundaryStep& step : curve.steps) {
+      points.push_back(first + (&step - curve.steps.data()));
+      steps.push_back(&step);
+    }
+    curves.resize(steps.size(), static_cast<std::int64_t>(i));
+    first += static_cast<std::int64_t>(curve.points.size());
   }
-  write_column(file, {"step_curve", "1", "curve that the step belongs to"}, {"step"}, steps,
-               &StepOfCurve::curve);
-  write_column(file,
-               {"step_point", "1", "point at the left end of the step; the next one is at its right end"},
-               {"step"}, steps, &StepOfCurve::first);
+  write_dataset(file, {"step_curve", "1", "curve that the step belongs to"}, {"step"}, curves);
+  write_dataset(file,
+                {"step_point", "1", "point at the left end of the step; the next one is at its right end"},
+                {"step"}, points);
   write_column(file, {"step_length", "1", "length of the step's chord where the window has side one"},
-               {"step"}, steps, [](const StepOfCurve& one) { return one.step->length; });
+               {"step"}, steps, &BoundaryStep::length);
   write_column(file,
                {"dense_output", "1", "series of the functions in the distance along the chord at both ends"},
-               {"step", "function", "end", "order"}, steps,
-               [](const StepOfCurve& one) { return series_of(*one.step); });
+               {"step", "function", "end", "order"}, steps, series_of);
 }
 
 void write_curves(Hdf5Writer& file, const BoundaryResult& result) {

@@ -13,10 +13,10 @@ constexpr const char* interval = "event_interval";
 
 }  // namespace
 
-void write_data_errors(Hdf5Writer& file, const std::string& parameter, const DataErrors& errors) {
+void write_data_errors(Hdf5Writer& file, const std::string& unit, const DataErrors& errors) {
   write_whole(file, whole_dataset(interpolation), row_major(errors.interpolation));
   write_whole(file, whole_dataset(digits), row_major(errors.digits));
-  write_whole(file, whole_dataset(interval, file.units(parameter)),
+  write_whole(file, whole_dataset(interval, unit),
               column_of(std::span(errors.intervals), [](const EventInterval& one) {
                 return std::array{one.from, one.to};
               }));

@@ -9,8 +9,9 @@
 
 namespace eigentrail {
 
-/// Creates and writes the datasets. The other datasets of the file must be complete.
-void write_data_errors(Hdf5Writer& file, const std::string& parameter, const DataErrors& errors);
+/// Creates and writes the datasets. The other datasets of the file must be complete. `unit`: of the traced
+/// parameter.
+void write_data_errors(Hdf5Writer& file, const std::string& unit, const DataErrors& errors);
 
 /// Empty if the file has no such datasets. Throws Hdf5Error if they do not fit the numbers of steps, modes
 /// and events.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "core/hdf5_file.hpp"
 #include "core/texts.hpp"
@@ -148,8 +147,7 @@ void read_trimmed(const Hdf5File& file, LociFile& loci) {
   const auto names = loci.attributes.find("trimmed");
   if (names == loci.attributes.end()) return;
   const std::size_t orders = file.shape("dense_output").at(3);
-  std::istringstream list(names->second);
-  for (std::string name; std::getline(list, name, ',');) {
+  for (const std::string& name : split(names->second, ',')) {
     TrimmedParameter& trimmed = loci.trimmed.emplace_back();
     trimmed = {name, file.text_attribute(name, "units"), file.text_attribute(name, "long_name"),
                file.read_real(name)};

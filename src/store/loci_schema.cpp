@@ -146,8 +146,7 @@ std::set<Needs> had_by(const Model& model, const TraceOptions& options) {
 /// The unit of all coordinates; "coordinate_unit", the name of the dataset with the units, if they differ.
 std::string common_unit(const ModelDescription& description) {
   const auto& units = description.coordinate_units;
-  const bool same =
-      std::all_of(units.begin(), units.end(), [&](const auto& unit) { return unit == units[0]; });
+  const bool same = std::ranges::all_of(units, [&](const auto& unit) { return unit == units[0]; });
   return same ? units[0] : "coordinate_unit";
 }
 

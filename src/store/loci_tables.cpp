@@ -85,8 +85,8 @@ void write_projection(Hdf5Writer& file, const Projection& projection) {
                   projection.sampled_at);
   file.set_attribute("projection_error", projection.error);
   file.set_attribute("projection_error_at", projection.error_at);
-  file.set_attribute("count_sparse_factorizations", static_cast<std::int64_t>(projection.factorizations));
-  file.set_attribute("count_sparse_solutions", static_cast<std::int64_t>(projection.solutions));
+  file.set_attribute("count_sparse_factorizations", projection.factorizations);
+  file.set_attribute("count_sparse_solutions", projection.solutions);
 }
 
 }  // namespace

@@ -68,29 +68,26 @@ void write_events(Hdf5Writer& file, const std::vector<Event>& events, std::size_
 
 /// Writes the root attributes on the outcome and the work of the trace.
 void write_summary(Hdf5Writer& file, const TraceResult& result) {
-  const auto count = [&file](const std::string& name, std::uint64_t value) {
-    file.set_attribute("count_" + name, static_cast<std::int64_t>(value));
-  };
   file.set_attribute("message", result.message);
   write_notes(file, result.notes);
   file.set_attribute("seconds", result.seconds);
-  count("nodes", static_cast<std::uint64_t>(result.nodes));
-  count("events", result.events.size());
-  count("rejected_steps", static_cast<std::uint64_t>(result.rejections.total()));
-  count("modes_available", static_cast<std::uint64_t>(result.n_available));
-  count("mode_steps", static_cast<std::uint64_t>(result.mode_steps));
-  count("certified_mode_steps", static_cast<std::uint64_t>(result.certified_steps));
-  count("mode_factorizations", result.counts.modes.factorizations);
-  count("mode_iterations", result.counts.modes.iterations);
-  count("mode_solves", result.counts.modes.solves);
-  count("modal_bases", result.counts.modes.modal_bases);
-  count("modal_solves", result.counts.modes.modal_solves);
-  count("certificate_factorizations", result.counts.certificate_factorizations);
-  count("certificate_bases", result.counts.certificate_bases);
-  count("event_factorizations", result.counts.event_factorizations);
-  count("spectra", result.counts.spectra);
-  count("equilibrium_iterations", result.counts.equilibrium_iterations);
-  count("equilibrium_factorizations", result.counts.equilibrium_factorizations);
+  file.set_attribute("count_nodes", result.nodes);
+  file.set_attribute("count_events", result.events.size());
+  file.set_attribute("count_rejected_steps", result.rejections.total());
+  file.set_attribute("count_modes_available", result.n_available);
+  file.set_attribute("count_mode_steps", result.mode_steps);
+  file.set_attribute("count_certified_mode_steps", result.certified_steps);
+  file.set_attribute("count_mode_factorizations", result.counts.modes.factorizations);
+  file.set_attribute("count_mode_iterations", result.counts.modes.iterations);
+  file.set_attribute("count_mode_solves", result.counts.modes.solves);
+  file.set_attribute("count_modal_bases", result.counts.modes.modal_bases);
+  file.set_attribute("count_modal_solves", result.counts.modes.modal_solves);
+  file.set_attribute("count_certificate_factorizations", result.counts.certificate_factorizations);
+  file.set_attribute("count_certificate_bases", result.counts.certificate_bases);
+  file.set_attribute("count_event_factorizations", result.counts.event_factorizations);
+  file.set_attribute("count_spectra", result.counts.spectra);
+  file.set_attribute("count_equilibrium_iterations", result.counts.equilibrium_iterations);
+  file.set_attribute("count_equilibrium_factorizations", result.counts.equilibrium_factorizations);
 }
 
 using Clock = std::chrono::steady_clock;
@@ -157,7 +154,7 @@ LociTables new_tables(const std::string& path, const Scene& scene, const Model& 
   Hdf5Writer file = Hdf5Writer::in_memory(path.empty() ? "loci file" : path);
   write_provenance(file, loci_format, loci_schema_version, scene, options);
   file.set_attribute("reference", start.s_ref);
-  file.set_attribute("series_order", static_cast<std::int64_t>(start.order));
+  file.set_attribute("series_order", start.order);
   if (!model.description().trims.empty())
     file.set_attribute("trimmed", joined(trimmed_names(model.description()), ","));
   std::string data;
@@ -382,8 +379,9 @@ void LociWriter::finish(const TraceResult& result, const std::vector<StableRange
     self.events = 0;
   }
   self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early");
-  write_stable_ranges(self.tables.file(), self.parameter, ranges);
-  if (errors != nullptr) write_data_errors(self.tables.file(), self.parameter, *errors);
+  const std::string unit = label_unit(self.model.description().parameters.at(self.parameter).unit);
+  write_stable_ranges(self.tables.file(), unit, ranges);
+  if (errors != nullptr) write_data_errors(self.tables.file(), unit, *errors);
   self.save(self.tables.file().image(), "");
 }
 

@@ -8,18 +8,15 @@ namespace eigentrail {
 namespace {
 
 void write_counts(Hdf5Writer& file, const StabilityMap& map) {
-  const auto count = [&file](const char* name, std::uint64_t value) {
-    file.set_attribute(std::string("count_") + name, static_cast<std::int64_t>(value));
-  };
   const MapTotals totals = total(map);
-  count("lines", map.lines.size());
-  count("cells", totals.cells);
-  count("stable_cells", totals.stable);
-  count("marginal_cells", totals.marginal);
-  count("unstable_cells", totals.unstable);
-  count("unknown_cells", totals.unknown);
-  count("factorizations", totals.factorizations);
-  count("spectra", totals.spectra);
+  file.set_attribute("count_lines", map.lines.size());
+  file.set_attribute("count_cells", totals.cells);
+  file.set_attribute("count_stable_cells", totals.stable);
+  file.set_attribute("count_marginal_cells", totals.marginal);
+  file.set_attribute("count_unstable_cells", totals.unstable);
+  file.set_attribute("count_unknown_cells", totals.unknown);
+  file.set_attribute("count_factorizations", totals.factorizations);
+  file.set_attribute("count_spectra", totals.spectra);
 }
 
 /// The two dimensions have the names of the two parameters.

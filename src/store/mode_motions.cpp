@@ -151,25 +151,22 @@ std::vector<std::string> ModeMotions::names(std::size_t n_modes) const {
 
 std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
   std::vector<std::string> result(n_modes);
-  for (const auto& [mode, name] : by_participation_) {
+  const auto put = [&](std::size_t mode, const std::string& name) {
     if (mode < n_modes) result[mode] = name;
-  }
+  };
+  for (const auto& [mode, name] : by_participation_) put(mode, name);
   std::vector<RotorMode> of_rotor;
   for (const auto& [mode, description] : rotor_modes_) of_rotor.push_back(description);
   std::size_t next = 0;
   const auto rotor_names = rotor_mode_names(of_rotor, model_->description().shafts);
-  for (const auto& [mode, description] : rotor_modes_) {
-    if (mode < n_modes) result[mode] = rotor_names[next];
-    ++next;
-  }
+  for (const auto& [mode, description] : rotor_modes_) put(mode, rotor_names[next++]);
   if (shares_.motions().empty()) return result;
   std::vector<std::size_t> ascending;
   for (const auto& [mode, ends] : modes_) ascending.push_back(mode);
   const auto order = [&](std::size_t mode) {
     return std::pair(modes_.at(mode).begins, modes_.at(mode).frequency);
   };
-  std::stable_sort(ascending.begin(), ascending.end(),
-                   [&](std::size_t a, std::size_t b) { return order(a) < order(b); });
+  std::ranges::stable_sort(ascending, [&](std::size_t a, std::size_t b) { return order(a) < order(b); });
   Matrix shares(static_cast<Eigen::Index>(shares_.motions().size()),
                 static_cast<Eigen::Index>(ascending.size()));
   for (std::size_t i = 0; i < ascending.size(); ++i)
@@ -177,9 +174,7 @@ std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
   std::vector<double> turns;
   for (const std::size_t mode : ascending) turns.push_back(modes_.at(mode).turns);
   const std::vector<std::string> names = shares_.names(shares, turns);
-  for (std::size_t i = 0; i < ascending.size(); ++i) {
-    if (ascending[i] < n_modes) result[ascending[i]] = names[i];
-  }
+  for (std::size_t i = 0; i < ascending.size(); ++i) put(ascending[i], names[i]);
   return result;
 }
 

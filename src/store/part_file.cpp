@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <ranges>
 
 #include "core/archive.hpp"
 #include "core/fingerprint.hpp"
@@ -54,7 +53,7 @@ void check_same_run(const PartFile& first, const PartFile& other) {
 
 [[noreturn]] void refuse_missing(const std::vector<int>& missing, int count) {
   constexpr std::size_t most_named = 5;
-  const auto named = missing | std::views::take(most_named);
+  const auto named = first_items(missing, most_named);
   std::string numbers = joined(named, ", ", [](int number) { return std::to_string(number); });
   std::string options = joined(named, ", ", [count](int number) { return option_of(number, count); });
   if (missing.size() > most_named) {
@@ -70,8 +69,7 @@ void check_same_run(const PartFile& first, const PartFile& other) {
 }  // namespace
 
 std::optional<std::string> SharedRun::setting(const std::string& label) const {
-  const auto found =
-      std::find_if(settings.begin(), settings.end(), [&](const auto& one) { return one.first == label; });
+  const auto found = std::ranges::find_if(settings, [&](const auto& one) { return one.first == label; });
   return found == settings.end() ? std::nullopt : std::optional(found->second);
 }
 

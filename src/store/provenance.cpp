@@ -9,7 +9,7 @@ namespace eigentrail {
 void write_provenance(Hdf5Writer& file, const std::string& format, int schema_version, const Scene& scene,
                       const TraceOptions& options) {
   file.set_attribute("format", format);
-  file.set_attribute("schema_version", std::int64_t{schema_version});
+  file.set_attribute("schema_version", schema_version);
   file.set_attribute("program_version", version());
   file.set_attribute("blas_kernel", blas_kernel());
   file.set_attribute("title", scene.title);

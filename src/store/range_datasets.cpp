@@ -19,11 +19,10 @@ Stability kind_of(const std::string& name) {
 
 }  // namespace
 
-void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
-                         const std::vector<StableRange>& ranges) {
+void write_stable_ranges(Hdf5Writer& file, const std::string& unit, const std::vector<StableRange>& ranges) {
   using Range = StableRange;
   write_dimension(file, {"range", "1", "range without growing modes"}, counted(ranges.size()));
-  const auto write = [&, unit = file.units(parameter)](const char* name, auto field) {
+  const auto write = [&](const char* name, auto field) {
     write_whole(file, whole_dataset(name, unit), column_of(std::span(ranges), field));
   };
   const auto ends = [](auto value) {

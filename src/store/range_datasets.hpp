@@ -9,9 +9,8 @@
 
 namespace eigentrail {
 
-/// Creates and writes the datasets. The dimension `end` and the dataset of the traced parameter must exist.
-void write_stable_ranges(Hdf5Writer& file, const std::string& parameter,
-                         const std::vector<StableRange>& ranges);
+/// Creates and writes the datasets. The dimension `end` must exist. `unit`: of the traced parameter.
+void write_stable_ranges(Hdf5Writer& file, const std::string& unit, const std::vector<StableRange>& ranges);
 
 /// Reads the stable ranges; empty if the file has no such datasets. Throws Hdf5Error if these are
 /// inconsistent.
