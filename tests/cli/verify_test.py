@@ -122,6 +122,21 @@ class Verify(ProgramTest):
         self.change(edit)
         self.assertIn("has not the value 3.6", self.verify().stderr)
 
+    def test_a_stable_range_behind_the_flutter_of_a_fast_mode_fails(self):
+        """Between 0.55 and 0.6 the fast mode grows by 6e-9 of its size, which the dense output does not tell."""
+        self.assert_passes("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [[[1, 0], [0, 1]]]\n"
+                           "C = [[[\"(p - 0.3) * (p - 0.55) * (0.6 - p)\", 0], [0, \"1e-3 * (0.45 - p)\"]]]\n"
+                           "K = [[[1, 0], [0, 1e8]]]\n")
+
+        def edit(file):
+            self.assertEqual(len(file["stable_from"]), 1)
+            file["stable_from"][0], file["stable_to"][0] = 0.55, 0.6
+
+        self.change(edit)
+        run = self.verify()
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("a mode grows in the middle of the stable range from p = 0.55 on", run.stdout + run.stderr)
+
     def test_a_doubled_mode_fails(self):
         def edit(file):
             series = file["dense_output"][...]

@@ -27,8 +27,9 @@ Comparison compare_columns(const CheckedFile& file);
 Comparison compare_events(const CheckedFile& file, FreshSolver& solver);
 
 /// Changes between stored points of the number of growing eigenvalues and of real ones against the special
-/// points between them, and the stable ranges against points and special points.
-Comparison compare_stability(const CheckedFile& file);
+/// points between them, and the stable ranges against points, special points and the spectrum in their
+/// middle.
+Comparison compare_stability(const CheckedFile& file, const FreshSolver& solver);
 
 /// Everything against a new trace of the stored scene. Where its arithmetic is the same as in the file, as on
 /// the same machine, all numbers must be the same bit for bit; elsewhere labels, special points and ranges.

@@ -19,7 +19,7 @@ VerifyReport verify_loci(const LociFile& loci, const VerifyOptions& options) {
   const CheckedFile file = checked_file(loci, setup);
   FreshSolver solver(setup, loci);
   VerifyReport report;
-  report.comparisons = {compare_labels(file), compare_columns(file), compare_stability(file),
+  report.comparisons = {compare_labels(file), compare_columns(file), compare_stability(file, solver),
                         compare_spectra(file, options, solver)};
   if (!solver.is_of_large_model()) report.comparisons.push_back(compare_points(file, options, solver));
   report.comparisons.push_back(compare_events(file, solver));
