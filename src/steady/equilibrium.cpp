@@ -9,10 +9,10 @@
 
 #include "core/positive_or_one.hpp"
 #include "eigentrail/steady/relaxation.hpp"
-#include "steady/error_oriented_newton.hpp"
 #include "steady/load_steps.hpp"
 #include "steady/redundancy.hpp"
 #include "steady/rounding.hpp"
+#include "steady/whole_newton_steps.hpp"
 
 namespace eigentrail {
 namespace {
@@ -23,9 +23,12 @@ constexpr int max_corrections = 6;
 /// Iterations after which another method tries from the guess. Where KINSOL's line search works it takes
 /// fewer.
 constexpr int first_iterations = 25;
-/// From this number of coordinates on the error-oriented method is the first one: the longer a chain of stiff
-/// elements, the shorter the steps of KINSOL's line search.
+/// From this number of coordinates on KINSOL comes last: the longer a chain of stiff elements, the shorter
+/// the steps of its line search.
 constexpr Eigen::Index many_coordinates = 1000;
+/// Newton's method from the point before ends with a correction shorter than this, or after so many.
+constexpr double whole_steps_tolerance = 1e-8;
+constexpr int most_whole_steps = 200;
 /// Corrections with the factors at the guess go on while each is below this share of the one before. With a
 /// larger share they would take longer than new factors.
 constexpr double fast_contraction = 0.1;
@@ -160,9 +163,9 @@ void report_residual(const Model& model, const SteadyResidual& residual, const S
   }
 }
 
-/// At a first guess KINSOL, in large models the error-oriented method; where that takes long, the load is
-/// added in steps from the same guess, because damped steps from a far guess become shorter and shorter. On
-/// the path (no `options.relax`) only a solution beside the guess will do.
+/// At a first guess KINSOL; where that takes long, the load is added in steps from the same guess, because
+/// damped steps from a far guess become shorter and shorter; in large models this comes first. On the path
+/// (no `options.relax`) only a solution beside the guess will do.
 NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, const SteadyOptions& options,
                                Vector& u) {
   const bool large = n >= many_coordinates;
@@ -170,17 +173,13 @@ NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, 
     return
         [&, iterations](Vector& v) { return solve_with_kinsol(problem, options.tolerance, iterations, v); };
   };
-  const auto error_oriented = [&](const ErrorOrientedOptions& how) {
-    return [&, how](Vector& v) { return solve_error_oriented(problem, n, how, v); };
-  };
-  const auto load_steps = [&](Vector& v) { return solve_in_load_steps(problem, n, v); };
   const int first = std::min(first_iterations, options.max_iterations);
-  if (!options.relax) return large ? error_oriented({.least_damping = 1.0})(u) : kinsol(first)(u);
+  if (!options.relax)
+    return large ? solve_by_whole_steps(problem, n, whole_steps_tolerance, most_whole_steps, u)
+                 : kinsol(first)(u);
   std::vector<std::function<NonlinearResult(Vector&)>> turns;
   if (!large) turns.push_back(kinsol(first));
-  turns.push_back(error_oriented({.max_iterations = first}));
-  turns.push_back(load_steps);
-  turns.push_back(error_oriented({}));
+  turns.push_back([&](Vector& v) { return solve_in_load_steps(problem, n, v); });
   if (options.max_iterations > first) turns.push_back(kinsol(options.max_iterations));
   NonlinearResult result;
   for (const auto& turn : turns) {

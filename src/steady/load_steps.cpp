@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "steady/error_oriented_newton.hpp"
+#include "steady/whole_newton_steps.hpp"
 
 namespace eigentrail {
 namespace {
@@ -69,8 +69,7 @@ NonlinearResult solve_in_load_steps(const NonlinearProblem& problem, Eigen::Inde
       return true;
     };
     const double tolerance = next.t < 1.0 ? on_the_way : at_the_end;
-    const NonlinearResult found =
-        solve_error_oriented(held, measured, {tolerance, most_in_one_step, 1.0}, next.u);
+    const NonlinearResult found = solve_by_whole_steps(held, measured, tolerance, most_in_one_step, next.u);
     result.iterations += std::max(1, found.iterations);
     if (!found.converged || (next.t < 1.0 && !find_slope(next))) {
       step *= 0.5;
