@@ -67,7 +67,7 @@ def from_bytes(image: bytes, path: str = "result") -> xarray.Dataset:
 
 
 def read(image: bytes, path: str = "result", names: Sequence[str] = ()) -> Contents:
-    """The datasets of a file, and its attributes. `names`: only these, and the traced parameter."""
+    """The datasets of a file, and its attributes. `names`: only those of them that it has, and the traced parameter."""
     return engine().read_file(image, path, names)
 
 

@@ -16,9 +16,6 @@ from .engine import engine
 from .figures import planes, shapes, studies, trace_figures, with_matplotlib
 from .version import __version__
 
-class BadInput(ValueError):
-    """Options or files that do not fit."""
-
 
 def main(arguments=None):
     """Draws and returns the exit code."""
@@ -50,12 +47,12 @@ def picture_of(data, options):
     of, draw = KINDS[kind]
     for path, format_ in zip(options.pop("files"), formats):
         if format_ not in of.split(" or "):
-            raise BadInput(f"{path}: a picture of the kind {kind} needs a file of the kind {of}, found eigentrail-{format_}")
+            raise ValueError(f"{path}: a picture of the kind {kind} needs a file of the kind {of}, found eigentrail-{format_}")
     useless = [name for name in options if name not in inspect.signature(draw).parameters]
     if useless:
-        raise BadInput(f"--{useless[0]}: a picture of the kind {kind} has no use for it")
+        raise ValueError(f"--{useless[0]}: a picture of the kind {kind} has no use for it")
     if kind != "plane" and len(data) > 1:
-        raise BadInput(f"a picture of the kind {kind} shows one file, found {len(data)}; several go on the page of "
+        raise ValueError(f"a picture of the kind {kind} shows one file, found {len(data)}; several go on the page of "
                        "eigentrail report")
     return draw(*data, **options)
 
@@ -64,7 +61,7 @@ def _plane(*data, size=None):
     """A map with a boundary, or one of them."""
     data = sorted(data, key=lambda one: one.attrs["format"], reverse=True)  # a map first
     if len({one.attrs["format"] for one in data}) < len(data):
-        raise BadInput("a picture of the kind plane shows one map, one boundary, or one of each")
+        raise ValueError("a picture of the kind plane shows one map, one boundary, or one of each")
     return planes.plane_picture(*data, size=size)
 
 
@@ -86,7 +83,7 @@ def _place(loci, at):
         return float(values[0])
     value = engine().option_value("--at", at, name, loci[name].attrs.get("units", "1"))
     if not values.min() <= value <= values.max():
-        raise BadInput(f"--at {at}: {name} was traced from {values.min():.15g} to {values.max():.15g}")
+        raise ValueError(f"--at {at}: {name} was traced from {values.min():.15g} to {values.max():.15g}")
     return value
 
 
@@ -95,7 +92,7 @@ def _suffix(path):
     kind = os.path.splitext(path)[1].lower().removeprefix(".")
     if kind not in with_matplotlib.KINDS:
         known = ", ".join(f".{name}" for name in with_matplotlib.KINDS)
-        raise BadInput(f"{path}: expected a name that ends in one of {known}")
+        raise ValueError(f"{path}: expected a name that ends in one of {known}")
     return kind
 
 
@@ -119,7 +116,7 @@ def _mode(text):
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message):
-        raise BadInput(message.removeprefix("argument "))
+        raise ValueError(message.removeprefix("argument "))
 
 
 def _parser():

@@ -67,9 +67,9 @@ py::dict as_python(const std::map<std::string, StoredArray>& attributes) {
 }
 
 /// The datasets of a file, {name: (array, attributes)}, and its attributes. The attribute DIMENSION_LIST of a
-/// dataset has the names of its dimensions. `names`: only these, and the traced parameter; empty: all. Other
-/// threads of Python run while the file is read. Throws InputError if the file, called `called`, is no HDF5
-/// file or damaged.
+/// dataset has the names of its dimensions. `names`: only those of them that the file has, and the traced
+/// parameter; empty: all. Other threads of Python run while the file is read. Throws InputError if the file,
+/// called `called`, is no HDF5 file or damaged.
 std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called,
                                         std::vector<std::string> names) {
   const std::string_view bytes = image;
@@ -79,10 +79,12 @@ std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::strin
     const py::gil_scoped_release released;
     const Hdf5File file = Hdf5File::from_image(called, bytes);
     attributes = file.attributes("/");
-    if (names.empty())
+    if (names.empty()) {
       names = file.members("/");
-    else
+    } else {
       names.push_back(file.text_attribute("parameter"));
+      std::erase_if(names, [&](const std::string& name) { return !file.has(name); });
+    }
     for (const std::string& name : names) {
       if (std::optional<StoredArray> array = file.read(name))
         datasets.emplace_back(name, std::move(*array), file.attributes(name));

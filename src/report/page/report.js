@@ -38,8 +38,7 @@ function startReport() {
   const planes = grouped(of("boundary", "map"), (file) => [file.first.name, file.first.unit, file.second.name, file.second.unit]).map((group) => new PlaneView(group));
   const studies = of("accuracy").map((file) => new AccuracyView(file));
   const views = [...loci, ...planes, ...studies];
-  const main = document.getElementById("main");
-  main.replaceChildren(...views.map((view) => view.node), element("h2", { text: "Runs and scenes" }),
+  document.getElementById("main").replaceChildren(...views.map((view) => view.node), element("h2", { text: "Runs and scenes" }),
     ...files.flatMap((file) => [runDetails(file), ...(file.scene ? [sceneDetails(file)] : [])]));
   document.getElementById("footer").append(`Written by eigentrail ${version}. Curves are the dense output of the traces; drawn with plotly.js (MIT).`);
   for (const view of views) view.start();

@@ -93,7 +93,5 @@ function runDetails(file) {
 }
 
 function sceneDetails(file) {
-  return element("details", {}, element("summary", { text: `The scene: ${attributesPath(file)}` }), element("pre", { text: file.scene, tabindex: 0 }));
+  return element("details", {}, element("summary", { text: `The scene: ${file.attributes.scene_path || file.name}` }), element("pre", { text: file.scene, tabindex: 0 }));
 }
-
-const attributesPath = (file) => file.attributes.scene_path || file.name;
