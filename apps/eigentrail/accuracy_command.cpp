@@ -16,7 +16,6 @@
 #include "output.hpp"
 #include "scene_arguments.hpp"
 #include "shared_job.hpp"
-#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -106,7 +105,7 @@ void print_advice(const std::vector<MeasuredRun>& runs) {
     if (run.method == Method::trace) bounds.insert(run.tolerance);
   }
   const auto is_rival = [](const MeasuredRun& run) { return !by_trace(run); };
-  const bool rivals = std::any_of(runs.begin(), runs.end(), is_rival);
+  const bool rivals = std::ranges::any_of(runs, is_rival);
   std::vector<std::vector<std::string>> rows{{"error below", "fastest trace"}};
   if (rivals) rows[0].emplace_back("fastest instead");
   for (const double bound : bounds) {
@@ -132,15 +131,14 @@ int best_order(const std::vector<MeasuredRun>& runs) {
     });
     if (best != nullptr) ++wins[static_cast<std::size_t>(best->order)];
   }
-  return static_cast<int>(std::max_element(wins.begin(), wins.end()) - wins.begin());
+  return static_cast<int>(std::ranges::max_element(wins) - wins.begin());
 }
 
 /// Prints the cost of the certificate: the run with the scene's own options compared with the next one in the
 /// list, which has the same options without certificate.
 void print_cost_of_certificate(const std::vector<MeasuredRun>& runs) {
-  const auto without = std::find_if(runs.begin(), runs.end(), [](const MeasuredRun& run) {
-    return run.method == Method::trace_uncertified;
-  });
+  const auto without = std::ranges::find_if(
+      runs, [](const MeasuredRun& run) { return run.method == Method::trace_uncertified; });
   if (without == runs.end() || without == runs.begin()) return;
   const MeasuredRun& with = *std::prev(without);
   const double share = (with.seconds - without->seconds) / with.seconds;
@@ -152,8 +150,8 @@ void print_cost_of_certificate(const std::vector<MeasuredRun>& runs) {
 }
 
 void print_conclusions(const std::vector<MeasuredRun>& runs) {
-  const auto traces = std::count_if(runs.begin(), runs.end(), by_trace);
-  const auto kept = std::count_if(runs.begin(), runs.end(), [](const MeasuredRun& run) {
+  const auto traces = std::ranges::count_if(runs, by_trace);
+  const auto kept = std::ranges::count_if(runs, [](const MeasuredRun& run) {
     return by_trace(run) && measured(run) && run.error <= run.tolerance;
   });
   std::printf("  %td of %td traces kept their tolerance", kept, traces);

@@ -18,7 +18,6 @@
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/loci_writer.hpp"
-#include "free_motions.hpp"
 #include "output.hpp"
 #include "projection_info.hpp"
 #include "scene_in_words.hpp"

@@ -69,10 +69,6 @@ std::vector<Place> equidistant_places(const LociFile& loci, int points) {
   return places;
 }
 
-double or_nan(double value) {
-  return std::isfinite(value) ? value : NAN;
-}
-
 /// Every mode that exists at every place: number of the place along the output, parameter, mode, name, real
 /// and imaginary part (1/s), natural and damped frequency (rad/s), damping ratio, logarithmic decrement,
 /// certified, and errors of the data where the file has them. The places are the stored points, or `points`
@@ -93,7 +89,7 @@ ExportTable loci_table(const LociFile& loci, std::optional<int> points) {
       const double size = std::abs(s);
       table.rows.push_back({count(number), place.p, count(mode + 1),
                             loci.mode_names[static_cast<std::size_t>(i)], s.real(), s.imag(), size,
-                            std::abs(s.imag()), or_nan(-s.real() / size + 0.0), log_decrement(s),
+                            std::abs(s.imag()), -s.real() / size + 0.0, log_decrement(s),
                             certified_at(loci, place, mode)});
       if (!loci.data_errors) continue;
       const auto step = static_cast<Eigen::Index>(step_of(loci, place, mode));

@@ -10,8 +10,7 @@ namespace eigentrail::app {
 bool launched() {
   // Open MPI, MPICH and Slurm set one of these.
   const auto names = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
-  return std::any_of(names.begin(), names.end(),
-                     [](const char* name) { return std::getenv(name) != nullptr; });
+  return std::ranges::any_of(names, [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 int launched_processes() {

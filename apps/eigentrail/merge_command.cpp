@@ -20,9 +20,8 @@ int run_merge(MergeArguments& arguments, Team& team) {
   const PartFile& first = parts.front();
   SharedRun run = first.run;
   run.part.reset();
-  const auto other = std::find_if(parts.begin(), parts.end(), [&first](const PartFile& part) {
-    return part.blas_kernel != first.blas_kernel;
-  });
+  const auto other = std::ranges::find_if(
+      parts, [&first](const PartFile& part) { return part.blas_kernel != first.blas_kernel; });
   if (other != parts.end() && team.leads())
     warn(other->path + ": was computed with the kernel " + other->blas_kernel + " of BLAS, " + first.path +
          " with " + first.blas_kernel + "; the last digits differ from those of a run on one machine");

@@ -106,8 +106,7 @@ std::string cell_text(const std::string& text) {
 void print_table(const std::vector<std::vector<std::string>>& rows, std::FILE* to) {
   // Width in characters: continuation bytes of UTF-8 do not count.
   const auto width = [](const std::string& text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
   };
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

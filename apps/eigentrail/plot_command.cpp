@@ -11,12 +11,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <optional>
 
 #include "commands.hpp"
 #include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "output_choice.hpp"
+#include "scene_arguments.hpp"
 
 extern char** environ;  // NOLINT: of POSIX
 
@@ -26,7 +28,7 @@ namespace {
 struct PlotArguments {
   std::vector<std::string> files;
   OutputChoice output;
-  std::string kind, harmonics, unit, mode, at, view, size;
+  std::map<std::string, std::string> options;
   bool log = false;
 };
 
@@ -138,12 +140,9 @@ std::vector<std::string> interpreters() {
 
 std::vector<std::string> words(const PlotArguments& arguments) {
   std::vector<std::string> list = arguments.files;
-  for (const auto& [option, value] :
-       {std::pair{"--output", &arguments.output.path}, std::pair{"--kind", &arguments.kind},
-        std::pair{"--harmonics", &arguments.harmonics}, std::pair{"--unit", &arguments.unit},
-        std::pair{"--mode", &arguments.mode}, std::pair{"--at", &arguments.at},
-        std::pair{"--view", &arguments.view}, std::pair{"--size", &arguments.size}}) {
-    if (!value->empty()) list.push_back(std::string(option) + "=" + *value);
+  list.push_back("--output=" + arguments.output.path);
+  for (const auto& [option, value] : arguments.options) {
+    if (!value.empty()) list.push_back(option + "=" + value);
   }
   if (arguments.log) list.emplace_back("--log");
   if (arguments.output.force) list.emplace_back("--force");
@@ -181,17 +180,18 @@ void add_plot(CLI::App& program, int& exit_code) {
       ->required();
   add_output(*command, arguments->output,
              "picture to write, .svg, .pdf or .png; default: the name of the first file, .svg");
-  command->add_option("--kind", arguments->kind, "what to draw; default by the kind of the file")
+  const auto add = [&, &options = arguments->options](const char* flag, const char* help) {
+    return add_text(*command, flag, options, flag, help);
+  };
+  add("--kind", "what to draw; default by the kind of the file")
       ->check(CLI::IsMember({"campbell", "root-locus", "damping", "shape", "plane", "accuracy"}));
-  command->add_option("--harmonics", arguments->harmonics,
-                      "rays of a Campbell diagram: 1,2; default: those of the scene");
-  command->add_option("--unit", arguments->unit, "of frequencies: rad/s, Hz, rpm, rev/s, deg/s");
+  add("--harmonics", "rays of a Campbell diagram: 1,2; default: those of the scene");
+  add("--unit", "of frequencies: rad/s, Hz, rpm, rev/s, deg/s");
   command->add_flag("--log", arguments->log, "logarithmic frequency in a Campbell diagram");
-  command->add_option("--mode", arguments->mode, "mode of a shape: its number or its name; default: 1");
-  command->add_option("--at", arguments->at,
-                      "value of the parameter of a shape; default: the begin of the trace");
-  command->add_option("--view", arguments->view, "view of a shape: 3D, xy, xz, yz");
-  command->add_option("--size", arguments->size, "width and height in inches: 9x6");
+  add("--mode", "mode of a shape: its number or its name; default: 1");
+  add("--at", "value of the parameter of a shape; default: the begin of the trace");
+  add("--view", "view of a shape: 3D, xy, xz, yz");
+  add("--size", "width and height in inches: 9x6");
   add_output_flags(*command, arguments->output, {"replace an existing picture", "", "say nothing"});
   command->footer(
       "Examples:\n  eigentrail plot rotor.h5 -o campbell.svg --harmonics 1,2 --unit Hz\n"

@@ -53,16 +53,13 @@ void print_route(const Route& route, const ProjectionEstimate& estimate, const T
       {"  factorization", estimate.method + " at each, " + megabytes(estimate.factor_bytes) + ", " +
                               rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
       {"  memory", megabytes(estimate.total_bytes) + " with the vectors"}};
-  if (scene) {
+  if (scene)
     rows.push_back({"  equilibrium",
                     estimate.moves ? "of all coordinates, followed: such a factorization for each correction"
                                    : "of all coordinates, solved once"});
-    rows.push_back(
-        {"  trace", "of the scene on the motions of the projection, some tens, by the dense engine"});
-  } else {
-    rows.push_back(
-        {"  trace", "of the projected family, with some tens of coordinates, by the dense engine"});
-  }
+  rows.push_back(
+      {"  trace", scene ? "of the scene on the motions of the projection, some tens, by the dense engine"
+                        : "of the projected family, with some tens of coordinates, by the dense engine"});
   rows.push_back({"  error", "of the projection below " + rounded(estimate.target, 3) +
                                  " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
                                  " is that of the large model"});

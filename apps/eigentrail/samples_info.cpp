@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <ranges>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -72,7 +71,7 @@ void print_samples(const std::string& path, bool json) {
   const std::string name = data.parameter_name.empty() ? "the parameter" : data.parameter_name;
   constexpr std::size_t most = 30;
   std::string values =
-      joined(data.values | std::views::take(most), ", ", [](double value) { return rounded(value, 8); });
+      joined(first_items(data.values, most), ", ", [](double value) { return rounded(value, 8); });
   if (data.count() > most)
     values += " and " + std::to_string(data.count() - most) + " more up to " + rounded(data.values.back(), 8);
   std::vector<std::vector<std::string>> rows{

@@ -21,9 +21,9 @@ void warn(const std::string& message) {
   std::fprintf(stderr, "eigentrail: warning: %s\n", printable(message).c_str());
 }
 
-void add_text(CLI::App& command, const std::string& flag, std::map<std::string, std::string>& texts,
-              const std::string& key, const std::string& help) {
-  command.add_option_function<std::string>(
+CLI::Option* add_text(CLI::App& command, const std::string& flag, std::map<std::string, std::string>& texts,
+                      const std::string& key, const std::string& help) {
+  return command.add_option_function<std::string>(
       flag, [&texts, key](const std::string& text) { texts[key] = text; }, help);
 }
 

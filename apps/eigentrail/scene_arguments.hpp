@@ -19,9 +19,9 @@ struct SceneArguments {
   OptionTexts overrides() const { return {options.begin(), options.end()}; }
 };
 
-/// Adds an option whose text goes to `texts`, if it is given.
-void add_text(CLI::App& command, const std::string& flag, std::map<std::string, std::string>& texts,
-              const std::string& key, const std::string& help);
+/// Adds an option, which is returned; its text goes to `texts`, if it is given.
+CLI::Option* add_text(CLI::App& command, const std::string& flag, std::map<std::string, std::string>& texts,
+                      const std::string& key, const std::string& help);
 
 /// Adds SCENE and --set to a command.
 void add_scene(CLI::App& command, SceneArguments& arguments);

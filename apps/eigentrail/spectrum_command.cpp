@@ -49,8 +49,7 @@ std::vector<ShownPoint> with_errors(const TraceSetup& setup, std::vector<Operati
 Records records_of(const std::vector<ShownPoint>& points) {
   Records records{{"parameter", "mode", "real", "imag", "natural_frequency_hz", "damped_frequency_hz",
                    "damping_ratio", "log_decrement", "condition", "rounding", "what_moves"}};
-  const bool errors =
-      std::any_of(points.begin(), points.end(), [](const ShownPoint& point) { return bool(point.errors); });
+  const bool errors = std::ranges::any_of(points, [](const ShownPoint& point) { return bool(point.errors); });
   if (errors) records.columns.insert(records.columns.end(), {"interpolation_error", "digits_error"});
   for (const ShownPoint& point : points) {
     for (std::size_t i = 0; i < point.modes.size(); ++i) {

@@ -1,20 +1,189 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
+#include "core/hdf5_writer.hpp"
 #include "core/texts.hpp"
+#include "eigentrail/accuracy/recorded_trace.hpp"
+#include "eigentrail/continuation/recorded_path.hpp"
+#include "eigentrail/continuation/trace.hpp"
+#include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/projection/project.hpp"
+#include "eigentrail/scene/settings.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
+#include "eigentrail/store/loci_writer.hpp"
+#include "eigentrail/store/saved_trace.hpp"
+#include "records.hpp"
 #include "scene_arguments.hpp"
 #include "shared_job.hpp"
-#include "sweep_run.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
+
+/// A parameter that a sweep varies, and its values in the parameter's unit.
+struct Varied {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// All combinations of the values, the last parameter changing fastest.
+class Combinations {
+ public:
+  explicit Combinations(std::vector<Varied> varied) : varied_(std::move(varied)) {}
+
+  std::size_t size() const {
+    std::size_t product = 1;
+    for (const Varied& one : varied_) product *= one.values.size();
+    return product;
+  }
+  /// The values of a combination, counted from 0, in the order of the parameters.
+  std::vector<double> values(std::size_t number) const {
+    std::vector<double> values(varied_.size());
+    for (std::size_t i = varied_.size(); i-- > 0;) {
+      const std::size_t count = varied_[i].values.size();
+      values[i] = varied_[i].values[number % count];
+      number /= count;
+    }
+    return values;
+  }
+  const std::vector<Varied>& varied() const { return varied_; }
+
+  /// NAME=VALUE of each parameter.
+  std::vector<std::string> settings(std::size_t number) const {
+    const std::vector<double> of_run = values(number);
+    std::vector<std::string> settings;
+    for (std::size_t k = 0; k < of_run.size(); ++k)
+      settings.push_back(varied_[k].name + "=" + exact_text(of_run[k]));
+    return settings;
+  }
+
+ private:
+  std::vector<Varied> varied_;
+};
+
+/// The least damping ratio -Re s / |s| of the complex pairs of a path, and where it is, at the points of the
+/// trace and at places between them.
+struct LeastDamping {
+  double ratio = 0.0, p = 0.0;
+};
+
+/// What a run has come to: a line of the index of the sweep.
+struct SweepRow {
+  std::size_t run = 0;         ///< from 1
+  std::string file;            ///< the loci file's name; empty if none was written
+  std::vector<double> values;  ///< of the varied parameters
+  int exit_code = 0;           ///< that of `eigentrail trace`
+  int points = 0;
+  double reached = 0.0;                       ///< last value of the traced parameter; NaN without points
+  std::optional<double> flutter, divergence;  ///< where the first one of the trace is
+  std::optional<LeastDamping> damping;
+  std::string reason;  ///< why the run failed; empty if it did not
+};
+
+/// Places of a step at which damping ratios are looked at, beside its ends.
+constexpr int places_per_step = 16;
+
+std::optional<double> first_of(EventKind kind, const std::vector<Event>& events, double from) {
+  std::optional<double> first;
+  for (const Event& event : events) {
+    if (event.kind == kind && (!first || std::abs(event.p - from) < std::abs(*first - from))) first = event.p;
+  }
+  return first;
+}
+
+TraceSetup setup_of(const Scene& scene, const std::vector<std::string>& settings,
+                    const OptionTexts& options) {
+  const Hdf5Turn turn;
+  return prepare_trace(with_settings(scene, settings).scene, options);
+}
+
+std::optional<LeastDamping> least_damping(const RecordedPath& path) {
+  std::optional<LeastDamping> least;
+  for (std::size_t step = 0; step < path.steps.size(); ++step) {
+    for (int k = 0; k <= places_per_step; ++k) {
+      const PathPosition at{step, static_cast<double>(k) / places_per_step};
+      for (const Complex s : path.eigenvalues_at(at)) {
+        if (!std::isfinite(std::abs(s)) || s.imag() == 0.0) continue;
+        const double ratio = -s.real() / std::abs(s);
+        if (!least || ratio < least->ratio) least = {ratio, path.parameter_at(at)};
+      }
+    }
+  }
+  return least;
+}
+
+void trace_into(SweepRow& row, const TraceSetup& setup, const std::string& path, const SaveOptions& saving) {
+  RecordedTrace recorded(setup, {}, path, saving);
+  const TraceResult& result = recorded.begin();
+  if (!has_started(result.status)) throw InputError(setup.scene.path + ": " + result.message);
+  const Findings found = recorded.find();
+  recorded.finish(found);
+  row.file = std::filesystem::path(path).filename().string();
+  row.points = result.nodes;
+  row.reached = result.reached;
+  row.flutter = first_of(EventKind::flutter, result.events, setup.options.from);
+  row.divergence = first_of(EventKind::divergence, result.events, setup.options.from);
+  row.damping = least_damping(found.path);
+  row.exit_code = result.status == TraceStatus::completed ? done : numbers_failed;
+  row.reason = result.message;
+}
+
+/// First line and lines of the index, with their line ends.
+std::string index_header(const std::vector<Varied>& varied) {
+  std::vector<Cell> cells{"run", "file"};
+  for (const Varied& one : varied) cells.emplace_back(one.name);
+  for (const char* column :
+       {"exit", "points", "reached", "flutter", "divergence", "least_damping", "least_damping_at", "reason"})
+    cells.emplace_back(column);
+  return csv_line(cells, "");
+}
+
+std::string index_line(const SweepRow& row) {
+  std::vector<Cell> cells{count(row.run), row.file};
+  cells.insert(cells.end(), row.values.begin(), row.values.end());
+  const LeastDamping damping = row.damping.value_or(LeastDamping{NAN, NAN});
+  cells.insert(cells.end(), {count(row.exit_code), count(row.points), row.reached, row.flutter.value_or(NAN),
+                             row.divergence.value_or(NAN), damping.ratio, damping.p, printable(row.reason)});
+  return csv_line(cells, "");
+}
+
+/// Throws InputError if `path` is not the loci file of this run.
+void require_run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
+                          const OptionTexts& options, const std::string& path) {
+  const TraceSetup setup = setup_of(scene, settings, options);
+  (void)read_saved_trace(path, setup.scene, setup.options);
+}
+
+/// Traces `scene` with `settings` (NAME=VALUE) and writes the loci file `path`. An error ends up in the row.
+/// May be called by several threads at once.
+SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
+                      const OptionTexts& options, const std::string& path, const SaveOptions& saving) {
+  SweepRow row;
+  row.reached = std::nan("");
+  try {
+    TraceSetup setup = setup_of(scene, settings, options);
+    project_if_large(setup.model, setup.options);
+    check_parameter_name(setup.scene, setup.options.parameter);
+    trace_into(row, setup, path, saving);
+  } catch (const InputError& error) {
+    row.exit_code = bad_input;
+    row.reason = error.what();
+  } catch (const std::exception& error) {
+    row.exit_code = numbers_failed;
+    row.reason = error.what();
+  }
+  return row;
+}
 
 constexpr std::size_t most_runs = 1'000'000;
 constexpr const char* piece_kind = "run";
@@ -46,8 +215,7 @@ Combinations read_combinations(const SweepArguments& arguments, const Scene& sce
       throw InputError(label + ": '" + name + "' is the traced parameter; its values are those of the trace");
     if (is_trimmed(scene, name))
       throw InputError(label + ": '" + name + "' is the unknown of a [[trim]]; vary another parameter");
-    const bool twice =
-        std::any_of(varied.begin(), varied.end(), [&](const Varied& one) { return one.name == name; });
+    const bool twice = std::ranges::any_of(varied, [&](const Varied& one) { return one.name == name; });
     if (twice) throw InputError(label + ": is there twice; give all values in one list");
     varied.push_back({name, read_values(label, {text.substr(equals + 1)},
                                         scene.parameters[static_cast<std::size_t>(*index)])});
@@ -87,7 +255,7 @@ bool has_index(const std::string& index, const std::function<std::string(std::si
                const Scene& scene, const Combinations& runs, const OptionTexts& options) {
   std::ifstream file(index, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
   if (!text.starts_with(index_header(runs.varied())) || lines != runs.size() + 1) return false;
   for (std::size_t run = 0; run < runs.size(); ++run) {
     if (std::filesystem::exists(path(run)))

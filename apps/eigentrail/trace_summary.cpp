@@ -115,8 +115,7 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
       found.back().interval =
           interval_text(trace.errors->intervals[i], trace.setup.options.from, trace.result.reached);
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.event.p < b.event.p; });
+  std::ranges::stable_sort(found, [](const Found& a, const Found& b) { return a.event.p < b.event.p; });
   return found;
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
@@ -60,13 +60,6 @@ void append_range(std::vector<double>& values, const std::vector<double>& range,
 }
 
 }  // namespace
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text + separator);
-  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-  return parts;
-}
 
 std::vector<double> read_values(const std::string& option, const std::vector<std::string>& texts,
                                 const Parameter& parameter) {

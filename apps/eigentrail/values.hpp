@@ -8,9 +8,6 @@
 
 namespace eigentrail::app {
 
-/// The parts of a text between separators.
-std::vector<std::string> split(const std::string& text, char separator);
-
 /// The values that the texts of an option stand for, in the unit of the parameter. A text is a value, a list
 /// "10,20", or a range "begin:step:end" whose end belongs to it where the steps meet it. Values may have
 /// units; those of the last number in a text hold for all. Throws InputError that names the option.
