@@ -75,4 +75,11 @@ function axisName(axis) {
 }
 
 /** Groups of items with the same key, in the order of their first items. */
-const grouped = (items, key) => [...Map.groupBy(items, (item) => JSON.stringify(key(item))).values()];
+const grouped = (items, key) => {
+  const groups = new Map();
+  for (const item of items) {
+    const name = JSON.stringify(key(item));
+    groups.has(name) ? groups.get(name).push(item) : groups.set(name, [item]);
+  }
+  return [...groups.values()];
+};
