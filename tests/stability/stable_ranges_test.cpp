@@ -153,11 +153,11 @@ TEST(StableRanges, SeeAWindowBelowTheTolerance) {
 /// A fast mode grows from p = 0.45 on, more slowly than the error of the dense output tells. Between 0.55 and
 /// 0.6, where no other mode grows, there is no stored point either: what is known of it is its flutter.
 TEST(StableRanges, AreNoneBehindTheFlutterOfAFastMode) {
-  const TracedRanges traced = traced_family("from = 0\nto = 1", R"(
+  const TracedRanges traced = traced_family("from = 0\nto = 1", R"--(
 M = [[[1, 0], [0, 1]]]
 C = [[["(p - 0.3) * (p - 0.55) * (0.6 - p)", 0], [0, "1e-5 * (0.45 - p)"]]]
 K = [[[1, 0], [0, 1e8]]]
-)");
+)--");
   for (const double p : traced.path.p) EXPECT_FALSE(p > 0.551 && p < 0.599) << p;
   expect_ranges(traced.ranges, {{stable, 0, 0.3, "start", "flutter"}});
 }
