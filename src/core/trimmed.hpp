@@ -6,7 +6,7 @@
 namespace eigentrail {
 
 /// A part of `text`: without the characters `blanks` at its ends.
-inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r") {
+inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\f\v") {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);

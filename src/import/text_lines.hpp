@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/trimmed.hpp"
+
 namespace eigentrail {
 
 /// The content of a file of at most `limits::text_file_bytes`. Throws InputError.
@@ -33,7 +35,6 @@ std::string_view columns_of_line(std::string_view line, std::size_t begin, std::
 std::string shown(std::string_view word);
 /// Words between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
-std::string_view trimmed(std::string_view text);
 /// Whether both are equal but for upper and lower case.
 bool equal_words(std::string_view a, std::string_view b);
 
