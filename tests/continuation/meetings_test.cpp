@@ -448,5 +448,37 @@ TEST(NearestMeeting, IsSeenInTheReciprocalChart) {
   }
 }
 
+TEST(EarlierMeeting, IsTheOneThatTheStepHasPassed) {
+  // Exceptional points at 0.1 and 0.2; a point on the second.
+  Planted family = branching({0.02, -0.3, 1.0});
+  const PathNode node = branching_point(family, 0.2, 0.0);
+  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.1, 1e-9);
+  // None if the step is so short that the meeting is far behind; none if it lies ahead.
+  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, 0.3), 0.0);
+  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.0);
+}
+
+TEST(EarlierMeeting, GoesBackwardsAlike) {
+  Planted family = branching({0.02, -0.3, 1.0});
+  const PathNode node = branching_point(family, 0.1, 0.0);
+  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.1, 1e-9);
+}
+
+TEST(EarlierMeeting, IsTheFarthestOfSeveral) {
+  // At 0, 0.05 and 0.12, seen from the last.
+  Planted family = branching({0.0, 0.006, -0.17, 1.0});
+  const PathNode node = branching_point(family, 0.12, 0.0);
+  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.12, 1e-9);
+}
+
+TEST(EarlierMeeting, IsNoneBesideTheAxisAndNoneAtThePoint) {
+  Planted family = veering(0.05);
+  const PathNode node = veering_point(family, 0.1, 0.05);
+  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), 0.0);
+  Planted single = branching({0.0, 1.0});
+  const PathNode on_it = branching_point(single, 0.0, 0.0);
+  EXPECT_EQ(earlier_meeting(on_it.tracks[0], {0}, {1}, 1.0), 0.0);
+}
+
 }  // namespace
 }  // namespace eigentrail::test::meetings_test

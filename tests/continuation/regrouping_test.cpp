@@ -112,6 +112,36 @@ TEST(Regrouping, DoesNotJoinAModeWithItselfAndLeavesThePointAlone) {
 
 /// tridiag(1 + p, -2, 1 - p) at p = 1 - 1e-4: ten real eigenvalues whose vectors are parallel to rounding.
 /// From these, the rival, no block can be corrected.
+TEST(Regrouping, FormsABlockOfParallelVectorsFromTheirSpace) {
+  constexpr Eigen::Index n = 10;
+  Matrix K0 = 2.0 * Matrix::Identity(n, n), K1 = Matrix::Zero(n, n);
+  K0.diagonal(1).setConstant(-1.0);
+  K0.diagonal(-1).setConstant(-1.0);
+  K1.diagonal(1).setConstant(1.0);
+  K1.diagonal(-1).setConstant(-1.0);
+  Planted family({{Matrix::Zero(n, n)}, {Matrix::Identity(n, n)}, {K0, K1}});
+  constexpr double p = 1.0 - 1e-4;
+  std::vector<Complex> s;
+  for (Eigen::Index k = 1; k <= n; ++k) {
+    s.emplace_back(-2.0 + 2.0 * std::sqrt(1.0 - p * p) *
+                              std::cos(static_cast<double>(k) * M_PI / static_cast<double>(n + 1)));
+  }
+  PathNode node = family.point(p, alone(s));
+  std::vector<const InvariantPair*> singles;
+  for (const Track& track : node.tracks) singles.push_back(&track.pair);
+  const InvariantPair rival =
+      correct_pair(PencilAtPoint(node.pencil), join_pairs(singles, true), family.problem().s_ref,
+                   family.problem().corrector, family.counts.modes);
+  EXPECT_NE(rival.status, PairStatus::converged);
+  std::vector<Partner> others;
+  for (std::size_t i = 1; i < s.size(); ++i) others.push_back({false, i, 0.0});
+  ASSERT_TRUE(join(family.problem(), node, 0, others, family.counts));
+  ASSERT_EQ(node.tracks.size(), 1U);
+  // Its matrix knows the eigenvalues to the tenth root of rounding, their mean to rounding.
+  EXPECT_LT(std::abs(node.tracks[0].pair.Lambda.trace() + 20.0), 1e-12);
+  for (const Complex root : node.tracks[0].roots) EXPECT_LT(std::abs(root + 2.0), 0.2);
+}
+
 TEST(Regrouping, PartingAfterJoiningGivesBackTheSameSeries) {
   Planted family = crossing();
   PathNode node = family.point(0.0, alone(at_zero));

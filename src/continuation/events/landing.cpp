@@ -28,6 +28,8 @@ constexpr double seen_well = 3e-3;
 /// In half-widths: from points nearer than this the series distinguish a wide veering from a double root on
 /// the real axis, which from afar can look like one.
 constexpr double near_veering = 2.0;
+/// In steps: what the series show nearer to the left end than this was found on the step before.
+constexpr double at_left_end = 1e-3;
 /// In steps: a position this little beyond the right end counts as the end: rounding of the position.
 constexpr double beyond = 1e-9;
 /// An iterate outside the step means that the meeting is not on it, if the last move was shorter than this
@@ -114,7 +116,7 @@ class MeetingLanding {
   Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks);
   Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
   Sight look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                  EigenvalueSampler& branches, double& rounding);
+                  EigenvalueSampler& branches, double& earlier, double& rounding);
   Meeting seen_from(const Track& track, const ExpectedMeeting& expected) const {
     return expected.is_of_all
                ? meeting_of_all(track, step_.h)
@@ -163,11 +165,12 @@ bool MeetingLanding::is_left_end(const ExpectedMeeting& expected, double distanc
   return std::abs(distance) <= (is_known ? at_point_ : landing_accuracy * frame.coordinate_range());
 }
 
-/// Estimates the offset of the meeting from the point at a distance from the left end. `rounding` is set to
-/// the error of the estimate by rounding. `trusting`: ends the walk as soon as the series there give the
-/// place to all digits.
+/// Estimates the offset of the meeting from the point at a distance from the left end. `earlier` is set to
+/// the offset of another meeting that the step passes before it, or to zero, and `rounding` to the error of
+/// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
+/// digits.
 Sight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                                EigenvalueSampler& branches, double& rounding) {
+                                EigenvalueSampler& branches, double& earlier, double& rounding) {
   const double h = step_.h;
   const std::size_t index = expected.a.track;
   Track there;
@@ -186,13 +189,17 @@ Sight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected
   const bool is_wide =
       meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
   if (is_wide && move < near_veering * meeting.half_width) return {Sight::Kind::absent};
+  const bool near = !expected.is_of_all && move <= std::max(seen_well * std::abs(h), at_point_);
+  earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
   const double share = (distance + meeting.offset) / h;
-  const bool trusted = trusting && move <= seen_well * std::abs(h) && share > seen_well && share < 1.0;
+  const bool trusted =
+      trusting && move <= seen_well * std::abs(h) && share > seen_well && share < 1.0 && earlier == 0.0;
   return {trusted ? Sight::Kind::settled : Sight::Kind::seen, meeting.offset};
 }
 
 /// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
-/// look_from.
+/// look_from. If another meeting lies before the result, goes back to it once; not if that turns out to be
+/// the known one at the left end, which from far away is seen inaccurately.
 MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected, bool trusting,
                                                 double& distance, int& looks) {
   const PathFrame& frame = solver_.points().frame();
@@ -201,34 +208,53 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
                                 ? landing_accuracy
                                 : landing_accuracy * std::max(frame.range.length(), std::abs(step_.left->p));
   EigenvalueSampler branches(*step_.left, step_.right, expected.a.track, h);
-  bool own_end = false;
-  WalkRules rules;
-  const auto look = [&](double at) {
-    double rounding = 0.0;
-    const Sight sight = look_from(at, expected, trusting, branches, rounding);
-    rules.rounding = std::max(at_point_, rounding);
-    own_end = sight.kind == Sight::Kind::settled;
-    return sight;
-  };
-  rules.resolution = resolution;
-  rules.rounding = at_point_;
-  rules.begin = 0.0;
-  rules.end = h;
-  rules.slack = beyond * std::abs(h);
-  rules.looks = most_looks - looks;
-  const Walk found = walk(distance, rules, look);
-  looks += found.looks;
-  distance = found.position;
-  if (found.end == WalkEnd::absent) return Approach::nothing;
-  if (found.end == WalkEnd::outside)
-    return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
-                                                                              : Approach::failed;
-  if (found.end != WalkEnd::settled) return Approach::failed;
-  if (own_end && std::abs(found.move) > resolution) {
-    distance += found.move;
+  std::optional<double> later;  // a meeting that was located before one in front of it was looked for
+  const auto no_other = [&] {
+    if (!later) return Approach::nothing;
+    distance = *later;
     return Approach::reached;
+  };
+  for (const bool may_go_back : {true, false}) {
+    double earlier = 0.0;
+    bool own_end = false;
+    WalkRules rules;
+    const auto look = [&](double at) {
+      double rounding = 0.0;
+      const Sight sight = look_from(at, expected, trusting, branches, earlier, rounding);
+      rules.rounding = std::max(at_point_, rounding);
+      own_end = sight.kind == Sight::Kind::settled;
+      return sight;
+    };
+    rules.resolution = resolution;
+    rules.rounding = at_point_;
+    rules.begin = 0.0;
+    rules.end = h;
+    rules.slack = beyond * std::abs(h);
+    rules.looks = most_looks - looks;
+    const Walk found = walk(distance, rules, look);
+    looks += found.looks;
+    distance = found.position;
+    if (found.end == WalkEnd::absent || (found.end == WalkEnd::outside && later)) return no_other();
+    const double in_front = distance - found.move + earlier;
+    if (found.end == WalkEnd::outside && may_go_back && earlier != 0.0 && in_front / h > at_left_end) {
+      distance = in_front;  // the step passes another one in front of that beyond its end
+      continue;
+    }
+    if (found.end == WalkEnd::outside)
+      return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
+                                                                                : Approach::failed;
+    if (found.end != WalkEnd::settled) return Approach::failed;
+    if (own_end && std::abs(found.move) > resolution) {
+      distance += found.move;
+      return Approach::reached;
+    }
+    // The walk may have converged to a later meeting than the first.
+    const bool goes_back = may_go_back && earlier != 0.0 && (distance + earlier) / h > at_left_end;
+    if (!goes_back) return is_left_end(expected, distance) ? no_other() : Approach::reached;
+    later = distance;
+    distance += earlier;
   }
-  return is_left_end(expected, distance) ? Approach::nothing : Approach::reached;
+  return Approach::failed;
 }
 
 /// Adds the meeting to the list if it is at the end of the step; once where several are predicted close to

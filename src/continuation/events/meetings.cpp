@@ -266,4 +266,21 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   return meeting;
 }
 
+double earlier_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b, double h) {
+  constexpr double nearby = 0.2;    // share of the step up to which the series is accurate
+  constexpr double apart = 1e-6;    // share of the step: a nearer root is the meeting at the point itself
+  constexpr double on_axis = 1e-2;  // largest |Im| / |Re| of a root on the axis, since double roots split
+  const ComplexVector discriminant = discriminant_of(track, a, b);
+  double offset = 0.0;
+  if (discriminant.size() == 0) return offset;
+  for (const Complex root : polynomial_roots(discriminant)) {
+    const bool is_earlier = root.real() * h < 0.0 && std::abs(root.imag()) <= on_axis * std::abs(root.real());
+    const double distance = std::abs(root.real());
+    if (is_earlier && distance > std::max(std::abs(offset), apart * std::abs(h)) &&
+        distance < nearby * std::abs(h))
+      offset = root.real();
+  }
+  return offset;
+}
+
 }  // namespace eigentrail

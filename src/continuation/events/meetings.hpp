@@ -22,6 +22,10 @@ namespace eigentrail {
 Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b,
                         double reach, const MeetingThresholds& thresholds = {});
 
+/// Offset of the farthest meeting on the real axis between the beginning of a step of signed length h and the
+/// point, as far as the series at the point is accurate. Zero when there is none.
+double earlier_meeting(const Track& track, const std::vector<int>& a, const std::vector<int>& b, double h);
+
 /// Series of ((s_a - s_b) / 2)^2 at a point. Empty when the two cannot be separated from the other
 /// eigenvalues of the block there.
 ComplexVector discriminant_of(const Track& track, const std::vector<int>& a, const std::vector<int>& b);

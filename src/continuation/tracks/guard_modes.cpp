@@ -120,6 +120,25 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
   return others;
 }
 
+/// A pair that was corrected from an inaccurate start as the member with Im s >= 0: else the conjugate of a
+/// followed mode would be taken for another one. A complex start may have led to a real eigenvalue: in a
+/// complex block that one could not be told from its conjugate where the block meets its own.
+InvariantPair upper_member(const PencilAtPoint& pencil, InvariantPair pair, bool is_complex_part,
+                           double s_ref, const CorrectorOptions& options, ModeCounts& counts) {
+  if (pair.size() != 1 || pair.is_real) return pair;
+  const Complex s = pair.eigenvalue();
+  if (!is_complex_part && std::abs(s.imag()) <= real_axis * std::abs(s)) {
+    InvariantPair start = pair;
+    start.Z = real_vector(pair.Z.col(0));
+    start.Lambda = s.real() * ComplexMatrix::Identity(1, 1);
+    start.is_real = true;
+    start.factors.reset();
+    InvariantPair real = correct_pair(pencil, start, s_ref, options, counts);
+    if (real.status == PairStatus::converged) return real;
+  }
+  return s.imag() < 0.0 ? conjugated(pair) : pair;
+}
+
 }  // namespace
 
 void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t track, RunCounts& counts) {
@@ -131,6 +150,8 @@ void add_neighbours(const PathProblem& problem, PathNode& node, std::size_t trac
     const PencilAtPoint pencil(node.pencil.of(group.pair.part));
     InvariantPair pair = correct_pair(pencil, group.pair, problem.s_ref, problem.corrector, counts.modes);
     if (pair.status != PairStatus::converged) continue;
+    pair = upper_member(pencil, std::move(pair), node.pencil.of(group.pair.part).complex_sign != 0,
+                        problem.s_ref, problem.corrector, counts.modes);
     Track guard = differentiate_track(problem, node, std::move(pair), counts);
     if (!guard.functions.allFinite()) continue;
     if (is_followed(problem, node, guard)) continue;

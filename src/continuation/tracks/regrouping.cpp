@@ -39,9 +39,9 @@ constexpr double much_smaller_term = 0.2;
 /// alike.
 constexpr double least_change = 0.2;
 
-/// Largest size of a block of a pencil of size n.
-Eigen::Index largest_block_of(Eigen::Index n) {
-  return std::min({largest_block, std::max(small_block, n), 2 * n});
+/// Largest size of a block of a pencil of size n, if it is limited to `largest`.
+Eigen::Index largest_block_of(Eigen::Index n, Eigen::Index largest) {
+  return std::min({largest, std::max(small_block, n), 2 * n});
 }
 
 /// Replaces the tracks with the given indices by one track at the end of the list.
@@ -85,6 +85,17 @@ void append(const ComplexVector& roots, bool other_chart, bool with_conjugates, 
   for (std::size_t i = first, end = all.size(); i < end; ++i) all.push_back(std::conj(all[i]));
 }
 
+/// The block with these eigenvalues in the chart and the part of `one`, by inverse iteration. Where vectors
+/// are parallel to rounding, only their space can be computed, not the vectors one by one.
+InvariantPair subspace_of(const PathNode& node, const InvariantPair& one, const ComplexVector& values,
+                          bool is_real) {
+  const ComplexVector s = one.chart == Chart::finite ? values : ComplexVector(values.cwiseInverse());
+  const Complex centre = is_real ? Complex(s.mean().real()) : s.mean();
+  InvariantPair pair = invariant_subspace(node.pencil.of(one.part), centre, s.size(), is_real);
+  pair.part = one.part;
+  return one.chart == Chart::finite ? pair : in_other_chart(pair);
+}
+
 /// Whether a block has the eigenvalues that its members had, as far as these were known.
 bool has_eigenvalues(const Track& block, const ComplexVector& known) {
   constexpr double rounding = 1e4;  // in units of that of a matrix: errors of the corrector, with a margin
@@ -96,7 +107,7 @@ bool has_eigenvalues(const Track& block, const ComplexVector& known) {
 }  // namespace
 
 bool join(const PathProblem& problem, PathNode& node, std::size_t index, const std::vector<Partner>& partners,
-          RunCounts& counts) {
+          RunCounts& counts, Eigen::Index largest) {
   const StageTimer timer(counts.modes_seconds);
   std::vector<std::size_t> members{index};
   bool make_real = false;
@@ -129,13 +140,18 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
                      [](int mode) { return mode >= 0 ? Track::no_mode : Track::guard; });
     }
   }
-  if (static_cast<Eigen::Index>(known.size()) > largest_block_of(node.pencil.of(pairs[0].part).size()))
+  if (static_cast<Eigen::Index>(known.size()) >
+      largest_block_of(node.pencil.of(pairs[0].part).size(), largest))
     return false;
   const ComplexVector values =
       Eigen::Map<ComplexVector>(known.data(), static_cast<Eigen::Index>(known.size()));
-  std::optional<Track> joined =
-      track_of(problem, node, {join_pairs(parts, make_real), values, modes}, counts);
-  if (!joined || !has_eigenvalues(*joined, values)) return false;
+  const auto block = [&](const InvariantPair& start) {
+    std::optional<Track> track = track_of(problem, node, {start, values, modes}, counts);
+    return track && has_eigenvalues(*track, values) ? track : std::nullopt;
+  };
+  std::optional<Track> joined = block(join_pairs(parts, make_real));
+  if (!joined) joined = block(subspace_of(node, *parts.front(), values, make_real));
+  if (!joined) return false;
   joined->met = std::move(met);
   joined->inseparable = inseparable(node, members);
   if (departure) {
@@ -147,8 +163,8 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
 }
 
 bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
-                   RunCounts& counts) {
-  if (!join(problem, node, track, {partner}, counts)) return false;
+                   RunCounts& counts, Eigen::Index largest) {
+  if (!join(problem, node, track, {partner}, counts, largest)) return false;
   double& inseparable = node.tracks.back().inseparable;
   inseparable = std::max(inseparable, kept_together * partner.distance);
   return true;

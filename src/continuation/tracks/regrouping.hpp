@@ -9,14 +9,14 @@ namespace eigentrail {
 
 /// Joins `track` with its partners to one track at the end of the node's list. Returns false, and does not
 /// change the node, if the block does not converge to the eigenvalues of its members, or would have more than
-/// `largest_block`.
+/// `largest`.
 bool join(const PathProblem& problem, PathNode& node, std::size_t track, const std::vector<Partner>& partners,
-          RunCounts& counts);
+          RunCounts& counts, Eigen::Index largest = largest_block);
 
 /// Joins a track with another one because their eigenvalues are close, and not because they are seen to meet.
 /// They stay together as long as they are about as close.
 bool join_and_keep(const PathProblem& problem, PathNode& node, std::size_t track, const Partner& partner,
-                   RunCounts& counts);
+                   RunCounts& counts, Eigen::Index largest = largest_block);
 
 /// Some members of a block as a track of their own. Empty if they are too close to the other eigenvalues or
 /// the corrector fails.

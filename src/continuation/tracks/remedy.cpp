@@ -18,6 +18,9 @@ constexpr double join_reach = 1.0;
 /// is lost.
 constexpr Eigen::Index most_of_few = 4;
 
+/// Largest block that is formed where rounding hides its members: nothing smaller can be followed there.
+constexpr Eigen::Index largest_where_hidden = 40;
+
 /// Of two tracks on their way to infinity, whether one is so much closer to it that nothing but infinity
 /// itself can keep it from being certified: a tenth of |1/s|, so that they part further on any step to it.
 bool one_is_at_infinity(const Track& a, const Track& b) {
@@ -46,6 +49,17 @@ bool join_unproven(const PathProblem& problem, const JoiningRules& rules, PathNo
   if (!join_and_keep(problem, node, track, *nearest, counts)) return false;
   node.tracks.back().unproven = true;
   return true;
+}
+
+/// Whether rounding keeps a block from being accurate, or certified, on any step: it is of three or more,
+/// steps have become short, and shorter ones would not help, since the terms of its series vanish already.
+/// Then it is a part of a larger one, with vectors that are nearly parallel to those of the rest.
+bool are_hidden_by_rounding(const PathProblem& problem, const JoiningRules& rules, const Verdict& verdict,
+                            double h, const Step* step, const Track& track) {
+  if (track.size() < 3 || !rules.has_shrunk(h)) return false;
+  if (verdict.kind == Verdict::Kind::uncertified) return true;
+  return verdict.kind == Verdict::Kind::inaccurate && step != nullptr &&
+         series_are_exact(problem, rules.tolerance, *step, static_cast<std::size_t>(verdict.track));
 }
 
 }  // namespace
@@ -80,6 +94,12 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
   if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : rules.has_shrunk(h))) {
     remedy.tried_to_join = true;
     if (join_unfollowed(problem, node, track, h, rules.parting_reach, counts)) ++remedy.changes.joined;
+  }
+  if (!remedy.helps() && are_hidden_by_rounding(problem, rules, verdict, h, step, node.tracks[track])) {
+    remedy.tried_to_join = true;
+    const std::optional<Partner> nearest = nearest_to_join(rules, node, track);
+    if (nearest && join_and_keep(problem, node, track, *nearest, counts, largest_where_hidden))
+      ++remedy.changes.joined;
   }
   if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
     remedy.tried_to_join = true;
