@@ -157,6 +157,11 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
   if (!loci.ranges || loci.data_errors || (!ascends && !std::is_sorted(loci.p.rbegin(), loci.p.rend())))
     return;
   const double margin = accuracy_of_ends * (loci.highest() - loci.lowest());
+  for (const StableRange& range : *loci.ranges) {
+    if (grows_in_middle(file, solver, range))
+      result.faults.push_back("a mode grows in the middle of the stable range from " + file.at(range.from.p) +
+                              " on");
+  }
   const std::vector<Permanence> permanence = permanence_of_modes(loci, file.accuracy);
   for (std::size_t step = 0; step < loci.steps.size(); ++step) {
     for (const double t : {0.0, 0.5}) {
@@ -171,11 +176,6 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
       if (growth.all_decay && file.setup.options.modes.is_all() && !is_in(-margin))
         result.faults.push_back("all modes decay at " + file.at(p) + ", outside the stable ranges");
     }
-  }
-  for (const StableRange& range : *loci.ranges) {
-    if (grows_in_middle(file, solver, range))
-      result.faults.push_back("a mode grows in the middle of the stable range from " + file.at(range.from.p) +
-                              " on");
   }
   result.compared += ", " + count_text(loci.ranges->size(), "stable range") + " against the eigenvalues";
 }
