@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -17,24 +18,21 @@
 namespace eigentrail::app {
 namespace {
 
-struct BoundaryArguments : SceneArguments {
+struct BoundaryArguments : PlaneArguments {
   OutputChoice output;
   BoundaryRequest request;
-  std::string from, to;  ///< of the second parameter
-  std::optional<std::string> first_from, first_to;
 };
 
 /// Reads the ranges, whose numbers may have units.
 void read_ranges(const Scene& scene, BoundaryArguments& arguments) {
   BoundaryRequest& request = arguments.request;
-  const auto number = [&scene](const std::string& option, const std::string& text, const std::string& name) {
-    return read_value(option, text, parameter_called(scene, name));
-  };
-  request.from = number("--from", arguments.from, request.second);
-  request.to = number("--to", arguments.to, request.second);
+  request.second = arguments.second;
+  std::tie(request.from, request.to) = arguments.second_range(scene);
   const std::string first = request.parameter.value_or(traced_parameter(scene));
-  if (arguments.first_from) request.first_from = number("--first-from", *arguments.first_from, first);
-  if (arguments.first_to) request.first_to = number("--first-to", *arguments.first_to, first);
+  for (const auto& [key, text] : arguments.options) {
+    auto& end = key == "from" ? request.first_from : request.first_to;
+    end = read_value("--" + key, text, parameter_called(scene, first));
+  }
 }
 
 std::string range_text(double from, double to) {
@@ -134,17 +132,17 @@ int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const std:
 
 /// The numbers of a request that need not be given, with the labels of their settings.
 std::vector<std::pair<std::string, std::optional<double>*>> optional_numbers(BoundaryRequest& request) {
-  return {{"--first-from", &request.first_from},
-          {"--first-to", &request.first_to},
+  return {{"--from", &request.first_from},
+          {"--to", &request.first_to},
           {"--tolerance", &request.tolerance},
           {"--damping-ratio", &request.damping_ratio}};
 }
 
 SharedRun shared_run(const BoundarySetup& setup, BoundaryRequest request) {
   SharedRun run{"boundary", setup.scene.path, settings_of(setup.scene), boundary_lines(setup.options)};
-  run.settings.insert(
-      run.settings.end(),
-      {{"--second", request.second}, {"--from", exact_text(request.from)}, {"--to", exact_text(request.to)}});
+  run.settings.insert(run.settings.end(), {{"--second", request.second},
+                                           {"--second-from", exact_text(request.from)},
+                                           {"--second-to", exact_text(request.to)}});
   for (const auto& [label, number] : optional_numbers(request)) {
     if (*number) run.settings.emplace_back(label, exact_text(**number));
   }
@@ -184,8 +182,8 @@ int run_boundary(BoundaryArguments& arguments, Team& team) {
 SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
   BoundaryRequest request;
   request.second = run.setting("--second").value_or("");
-  request.from = number_of(run, "--from");
-  request.to = number_of(run, "--to");
+  request.from = number_of(run, "--second-from");
+  request.to = number_of(run, "--second-to");
   for (const auto& [label, number] : optional_numbers(request)) {
     if (run.setting(label)) *number = number_of(run, label);
   }
@@ -210,13 +208,8 @@ void add_boundary(CLI::App& program, int& exit_code) {
   add_scene(*command, *arguments);
   add_output(*command, arguments->output, "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
   add_part(*command, arguments->output);
-  command->add_option("--second", request.second, "name of the second parameter")->required();
-  command->add_option("--from", arguments->from, "where its range begins, in its unit")->required();
-  command->add_option("--to", arguments->to, "where its range ends")->required();
+  add_plane(*command, *arguments);
   command->add_option("--parameter", request.parameter, "name of the first parameter (overrides the scene)");
-  command->add_option("--first-from", arguments->first_from,
-                      "where the range of the first parameter begins, in its unit (overrides the scene)");
-  command->add_option("--first-to", arguments->first_to, "where it ends (overrides the scene)");
   command->add_option(
       "--tolerance", request.tolerance,
       "bound of the relative error of the eigenvalue and of the curve in units of the window, "
@@ -229,7 +222,8 @@ void add_boundary(CLI::App& program, int& exit_code) {
   add_output_flags(*command, arguments->output);
   command->footer(
       "Example:\n"
-      "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --from 200 --to 3000 -o flutter.h5");
+      "  eigentrail boundary data/scenes/rotating_mass.toml --second a_n --second-from 200 --second-to 3000 "
+      "-o flutter.h5");
 }
 
 }  // namespace eigentrail::app

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "commands.hpp"
@@ -69,9 +70,8 @@ std::vector<std::string> map_picture(const StabilityMap& map, const std::string&
   return text;
 }
 
-struct MapArguments : SceneArguments {
+struct MapArguments : PlaneArguments {
   OutputChoice output;
-  std::string from, to;  ///< of the second parameter
   std::string grid = "50";
   MapOptions window;
 };
@@ -172,8 +172,8 @@ SharedRun shared_run(const MapSetup& setup, const MapArguments& arguments) {
   SharedRun run{"map", setup.trace.scene.path, settings_of(setup.trace.scene),
                 static_cast<std::size_t>(options.n_second)};
   run.settings.insert(run.settings.end(), {{"--second", options.second},
-                                           {"--from", exact_text(options.from)},
-                                           {"--to", exact_text(options.to)},
+                                           {"--second-from", exact_text(options.from)},
+                                           {"--second-to", exact_text(options.to)},
                                            {"lines", std::to_string(options.n_second)},
                                            {"cells", std::to_string(options.n_first)}});
   for (const auto& [key, text] : arguments.options) run.settings.emplace_back("option " + key, text);
@@ -200,9 +200,8 @@ int run_map(MapArguments& arguments, Team& team) {
   arguments.output.name_like(arguments.scene, "_map", ".h5");
   read_grid(arguments.grid, arguments.window);
   Scene scene = given_scene(arguments);
-  const Parameter second = parameter_called(scene, arguments.window.second);
-  arguments.window.from = read_value("--from", arguments.from, second);
-  arguments.window.to = read_value("--to", arguments.to, second);
+  arguments.window.second = arguments.second;
+  std::tie(arguments.window.from, arguments.window.to) = arguments.second_range(scene);
   const auto setup = std::make_shared<const MapSetup>(
       prepare_map(std::move(scene), arguments.overrides(), arguments.window));
   warn_of_unused(setup->trace.scene, *setup->trace.model);
@@ -216,8 +215,8 @@ int run_map(MapArguments& arguments, Team& team) {
 SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
   MapOptions options;
   options.second = run.setting("--second").value_or("");
-  options.from = number_of(run, "--from");
-  options.to = number_of(run, "--to");
+  options.from = number_of(run, "--second-from");
+  options.to = number_of(run, "--second-to");
   options.n_second = static_cast<int>(number_of(run, "lines"));
   options.n_first = static_cast<int>(number_of(run, "cells"));
   OptionTexts overrides;
@@ -236,27 +235,20 @@ void add_map(CLI::App& program, int& exit_code) {
                                 "stability over a window of two parameters: growing modes and margin");
   MapOptions& options = arguments->window;
   add_scene(*command, *arguments);
-  command->add_option("--second", options.second, "name of the second parameter")->required();
-  command->add_option("--from", arguments->from, "first value of the second parameter, in its unit")
-      ->required();
-  command->add_option("--to", arguments->to, "last value of the second parameter")->required();
+  add_plane(*command, *arguments);
   command->add_option("--grid", arguments->grid,
                       "N values of both, or NxM: N of the second by M of the first (50)");
   add_output(*command, arguments->output, "map file to write (HDF5); default: SCENE_map.h5, here");
   add_part(*command, arguments->output);
   add_override(*command, *arguments, "parameter", "name of the first parameter: the one that is traced");
-  add_override(*command, *arguments, "from", "where the window of the first parameter begins",
-               "--first-from");
-  add_override(*command, *arguments, "to", "where it ends", "--first-to");
   add_override(*command, *arguments, "tolerance", "bound of the relative error of every eigenvalue");
   add_no_certify(*command, *arguments,
                  "no certificate that no modes were exchanged: faster; the counts do not depend on identity");
   command->add_option("--jobs", options.jobs, "threads; 0: one per core");
   add_output_flags(*command, arguments->output);
   command->footer(
-      "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --from 0.5 --to 20 --grid "
-      "40x80 -o "
-      "drag.h5");
+      "Example:\n  eigentrail map data/scenes/rotating_mass.toml --second drag --second-from 0.5 "
+      "--second-to 20 --grid 40x80 -o drag.h5");
 }
 
 }  // namespace eigentrail::app

@@ -5,6 +5,7 @@
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/settings.hpp"
+#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -67,6 +68,35 @@ void add_trace_options(CLI::App& command, SceneArguments& arguments) {
   add_no_certify(
       command, arguments,
       "no certificate at every step that no modes were exchanged: faster, and compares shapes only");
+}
+
+void add_plane(CLI::App& command, PlaneArguments& arguments) {
+  command.add_option("--second", arguments.second, "name of the second parameter")->required();
+  command.add_option("--second-from", arguments.second_from, "where its range begins, in its unit");
+  command.add_option("--second-to", arguments.second_to, "where its range ends");
+  add_override(command, arguments, "from", "where the range of the traced parameter begins, in its unit");
+  add_override(command, arguments, "to", "where it ends");
+  for (const std::string key : {"from", "to"})
+    add_text(command, "--first-" + key, arguments.first, key, "former name of --" + key)->group("");
+}
+
+std::pair<double, double> PlaneArguments::second_range(const Scene& of) {
+  if (!second_from && !second_to && (options.contains("from") || options.contains("to"))) {
+    warn(
+        "--from and --to are taken for the range of --second, in this version only; write --second-from and "
+        "--second-to, and --from and --to for --first-from and --first-to");
+    for (const auto& [key, end] : {std::pair("from", &second_from), std::pair("to", &second_to)}) {
+      if (const auto given = options.extract(key)) *end = given.mapped();
+    }
+  }
+  for (const auto& [key, text] : first) options[key] = text;
+  const Parameter parameter = parameter_called(of, second);
+  const auto number = [&](const std::string& option, const std::optional<std::string>& text) {
+    if (!text) throw InputError(option + ": is missing; give the range of '" + second + "'");
+    return read_value(option, *text, parameter);
+  };
+  const double begin = number("--second-from", second_from);
+  return {begin, number("--second-to", second_to)};
 }
 
 void add_no_lock(CLI::App& command, SaveOptions& saving) {

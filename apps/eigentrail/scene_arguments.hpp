@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eigentrail/continuation/trace_options.hpp"
@@ -17,6 +19,18 @@ struct SceneArguments {
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 
   OptionTexts overrides() const { return {options.begin(), options.end()}; }
+};
+
+/// Of commands over a window of the traced parameter and a second one.
+struct PlaneArguments : SceneArguments {
+  std::string second;
+  std::optional<std::string> second_from, second_to;
+  std::map<std::string, std::string>
+      first;  ///< "from" and "to" by their former names, --first-from, --first-to
+
+  /// The numbers of the second range, whose texts may have units. Takes --from and --to for that range, with
+  /// a warning, where it is not given otherwise: so they were named. Throws InputError.
+  std::pair<double, double> second_range(const Scene& of);
 };
 
 /// Adds an option, which is returned; its text goes to `texts`, if it is given.
@@ -36,6 +50,9 @@ void add_overrides(CLI::App& command, SceneArguments& arguments, const std::vect
 void add_no_certify(CLI::App& command, SceneArguments& arguments, const std::string& help);
 /// Adds all options of traces.
 void add_trace_options(CLI::App& command, SceneArguments& arguments);
+
+/// Adds --second with its range, and --from and --to.
+void add_plane(CLI::App& command, PlaneArguments& arguments);
 
 /// Adds --no-lock.
 void add_no_lock(CLI::App& command, SaveOptions& saving);

@@ -189,7 +189,7 @@ def result_picture(name, settings, runs):
 
 def boundary_lines(program, scene, wanted, out):
     """Names and units of both parameters, and the curves of `eigentrail boundary` (places x parameters)."""
-    options = ["--second", wanted["second"], "--from", str(wanted["from"]), "--to", str(wanted["to"]),
+    options = ["--second", wanted["second"], "--second-from", str(wanted["from"]), "--second-to", str(wanted["to"]),
                *wanted.get("options", [])]
     subprocess.run([program, "boundary", str(scene), *options, "-o", str(out), "--quiet", "--force"], check=True)
     with h5py.File(out) as file:

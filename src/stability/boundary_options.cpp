@@ -24,12 +24,12 @@ OptionTexts trace_overrides(const BoundaryRequest& request) {
 
 void check_numbers(const BoundaryOptions& options) {
   for (const auto& [key, value] :
-       {std::pair("--from", options.second_from), std::pair("--to", options.second_to)}) {
+       {std::pair("--second-from", options.second_from), std::pair("--second-to", options.second_to)}) {
     if (!std::isfinite(value)) throw InputError(std::string(key) + ": is not a finite number");
   }
   if (!(options.second_from < options.second_to))
-    throw InputError("--to: expected more than --from (" + exact_text(options.second_from) + "), found " +
-                     exact_text(options.second_to) + ": the window is empty");
+    throw InputError("--second-to: expected more than --second-from (" + exact_text(options.second_from) +
+                     "), found " + exact_text(options.second_to) + ": the window is empty");
   if (options.lines < 0 || options.lines > 1000)
     throw InputError("--lines: must lie between 0 and 1000; found " + std::to_string(options.lines));
   if (options.damping_ratio && !(std::abs(*options.damping_ratio) < 1.0))

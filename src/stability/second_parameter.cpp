@@ -30,7 +30,7 @@ void require_first_range(const Scene& scene, const OptionTexts& overrides) {
   const auto parameter = given.find("parameter");
   for (const std::string key : {"from", "to"}) {
     if (given.contains(key)) continue;
-    const std::string option = "--first-" + key;
+    const std::string option = "--" + key;
     if (parameter != given.end() && scene.parameters.index(parameter->second) &&
         traced_parameter(scene) != parameter->second)
       throw InputError(option + ": is missing; the range in the scene is not that of '" + parameter->second +

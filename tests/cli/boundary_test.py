@@ -99,7 +99,7 @@ class BoundaryTest(CommandTest):
     def boundary(self, scene, second, low, high, *options, output="boundary.h5"):
         """Runs the command with --quiet on a scene given as text; returns all datasets of its file."""
         self.write("scene.toml", scene)
-        self.run_well("boundary", "scene.toml", "--second", second, "--from", low, "--to", high, "-o", output, "-q",
+        self.run_well("boundary", "scene.toml", "--second", second, "--second-from", low, "--second-to", high, "-o", output, "-q",
                       *options)
         with h5py.File(self.folder / output) as file:
             return {name: dataset[()] for name, dataset in datasets(file).items()}
@@ -154,7 +154,7 @@ class Curves(BoundaryTest):
 
     def test_nothing_to_find_is_said_and_leaves_empty_lists(self):
         self.write("scene.toml", CALM)
-        text = self.run_well("boundary", "scene.toml", "--second", "Q", "--from", -1, "--to", 1, "-o", "none.h5")
+        text = self.run_well("boundary", "scene.toml", "--second", "Q", "--second-from", -1, "--second-to", 1, "-o", "none.h5")
         self.assertIn("no boundary in the window", text)
         with h5py.File(self.folder / "none.h5") as file:
             self.assertEqual({file[name].shape[0] for name in ("point", "step", "curve", "corner", "P")}, {0})
@@ -164,7 +164,7 @@ class Curves(BoundaryTest):
 
     def test_summary_names_curves_and_corners(self):
         self.write("scene.toml", CROSSING_LINES)
-        text = self.run_well("boundary", "scene.toml", "--second", "Q", "--from", -1, "--to", 1, "-o", "x.h5")
+        text = self.run_well("boundary", "scene.toml", "--second", "Q", "--second-from", -1, "--second-to", 1, "-o", "x.h5")
         self.assertRegex(text, r"curve +kind +mode +points +P +Q +ends +bounds the stable region")
         self.assertRegex(text, r"1 +flutter +mode \d +\d+ .* edge, edge +in part")
         self.assertRegex(text, r"intersection +0.1 +0.2 ")
@@ -173,7 +173,7 @@ class Curves(BoundaryTest):
 
     def test_where_there_is_no_equilibrium_the_summary_says_so(self):
         self.write("scene.toml", DAMPED_PENDULUM)
-        text = self.run_well("boundary", "scene.toml", "--second", "drag", "--from", -1, "--to", 1, "--first-to", 1.3,
+        text = self.run_well("boundary", "scene.toml", "--second", "drag", "--second-from", -1, "--second-to", 1, "--to", 1.3,
                              "-o", "x.h5")
         self.assertIn("folds of the equilibrium, which are not followed: 7, first p = 1, drag = -1", text)
         self.assertIn("lines that could not be begun: 2, first p = 1.3: no equilibrium found", text)
@@ -184,7 +184,7 @@ class Curves(BoundaryTest):
 
     def test_a_curve_that_was_lost_is_kept_and_told(self):
         self.write("scene.toml", edited(ISLAND, "tolerance = 1e-9", "tolerance = 1e-12\nmax_nodes = 20"))
-        run = self.run_program("boundary", "scene.toml", "--second", "Q", "--from", -1, "--to", 1, "-o", "x.h5", "-q")
+        run = self.run_program("boundary", "scene.toml", "--second", "Q", "--second-from", -1, "--second-to", 1, "-o", "x.h5", "-q")
         self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED, run.stderr)
         self.assertEqual(run.stdout, "")
         self.assertRegex(run.stderr, r"^eigentrail: a curve was lost: stopped after 20 points; raise max_nodes; "
@@ -257,7 +257,7 @@ class Refusals(BoundaryTest):
     def refuse(self, fragments, *, second="drag", low=1, high=2, scene=BLADE, options=(), output="x.h5"):
         self.write("scene.toml", scene)
         before = self.contents()
-        self.assert_refused(self.run_program("boundary", "scene.toml", "--second", second, "--from", low, "--to", high,
+        self.assert_refused(self.run_program("boundary", "scene.toml", "--second", second, "--second-from", low, "--second-to", high,
                                              "-o", output, *options), fragments)
         self.assertEqual(self.contents(), before)
 

@@ -12,7 +12,7 @@ from program import BIRTH, CROSSING, FAMILY, PUSHED_PENDULUM, SCENES, TIME_LIMIT
 
 MULTIBODY = SCENES / "ground_resonance.toml"
 ZIEGLER = SCENES / "ziegler_column.toml"
-WINDOW = ["--second", "damping", "--from", "0.01", "--to", "1"]
+WINDOW = ["--second", "damping", "--second-from", "0.01", "--second-to", "1"]
 
 FILES = [
     ("loci of a multibody scene", "trace", MULTIBODY),
@@ -21,7 +21,7 @@ FILES = [
     ("loci with births", "trace", BIRTH),
     ("loci of a path that turns back", "trace", PUSHED_PENDULUM),
     ("boundary", "boundary", ZIEGLER, *WINDOW),
-    ("boundary without curves", "boundary", ZIEGLER, *WINDOW, "--first-from", "0", "--first-to", "0.1"),
+    ("boundary without curves", "boundary", ZIEGLER, *WINDOW, "--from", "0", "--to", "0.1"),
     ("map", "map", ZIEGLER, *WINDOW, "--grid", "5x7"),
     ("accuracy", "accuracy", SCENES / "pendulum.toml", "--tolerances", "1e-4", "--orders", "2", "--samples", "10",
      "--repeat", "1", "--grids", "25"),

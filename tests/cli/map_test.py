@@ -31,7 +31,7 @@ K = [[["0.8 - one*p - one*30*q/pi"]]]
 
 # Traced along its damping; it has no equilibrium with p > 1.
 PUSHED = edited(PUSHED_PENDULUM, "p = 0.0", "p = 0.0\nr = 0.1") + '[[drag]]\npoint = "bob"\ncoefficient = "r"\n'
-ALONG_DAMPING = ("--parameter", "r", "--first-from", "0.1", "--first-to", "1", "--second", "p")
+ALONG_DAMPING = ("--parameter", "r", "--from", "0.1", "--to", "1", "--second", "p")
 
 LAYOUT = {
     "q": (("q",), "rpm"),
@@ -67,7 +67,18 @@ class Map(CommandTest):
         return self.run_well("map", "scene.toml", "--grid", grid, "-o", output, *options)
 
     def circle(self, *options, output="map.h5"):
-        return self.map(CIRCLE, "--second", "q", "--from", "-1.5", "--to", "1.5", *options, output=output)
+        return self.map(CIRCLE, "--second", "q", "--second-from", "-1.5", "--second-to", "1.5", *options, output=output)
+
+    def test_former_names_of_the_ranges_work_with_a_warning(self):
+        self.write("scene.toml", CIRCLE)
+        command, rest = ("map", "scene.toml", "--second", "q"), ("--grid", "4x5", "-q", "-o")
+        new = self.run_program(*command, "--second-from", "-1.5", "--second-to", "1.5", "--to", "1", *rest, "new.h5")
+        old = self.run_program(*command, "--from", "-1.5", "--to", "1.5", "--first-to", "1", *rest, "old.h5")
+        self.assertEqual((new.returncode, new.stderr, old.returncode), (0, "", 0))
+        self.assertIn("write --second-from and --second-to", old.stderr)
+        with self.open("new.h5") as one, self.open("old.h5") as other:
+            for name in ("q", "p", "unstable", "margin"):
+                np.testing.assert_array_equal(one[name][()], other[name][()])
 
     def test_datasets_have_dimensions_units_and_names(self):
         self.circle()
@@ -131,7 +142,7 @@ class Map(CommandTest):
         self.assertTrue(text.endswith("wrote map.h5\n"))
 
     def test_one_number_makes_a_square_grid_and_the_window_goes_either_way(self):
-        self.map(CIRCLE, "--second", "q", "--from", "1", "--to", "-1", "--first-from", "1", "--first-to", "-1",
+        self.map(CIRCLE, "--second", "q", "--second-from", "1", "--second-to", "-1", "--from", "1", "--to", "-1",
                  grid="5")
         file = self.open("map.h5")
         for name in ("p", "q"):
@@ -142,11 +153,11 @@ class Map(CommandTest):
 
     def test_force_replaces_a_map(self):
         self.circle()
-        self.circle("--force", "--first-to", "1")
+        self.circle("--force", "--to", "1")
         self.assertEqual(self.open("map.h5")["p"][-1], 1)
 
     def test_lines_without_equilibrium_are_unknown_and_said(self):
-        text = self.map(PUSHED, *ALONG_DAMPING, "--from", "0", "--to", "1.5", grid="4x5")
+        text = self.map(PUSHED, *ALONG_DAMPING, "--second-from", "0", "--second-to", "1.5", grid="4x5")
         self.assertIn("unknown 50 % (10 of 20 cells)", text)
         self.assertRegex(text, r"note  2 of 4 lines could not be begun; .*, first at p = 1: no equilibrium found")
         file = self.open("map.h5")
@@ -159,7 +170,7 @@ class Map(CommandTest):
         self.circle()
         self.write("scene.toml", PUSHED)
         before = self.contents()
-        run = self.run_program("map", "scene.toml", *ALONG_DAMPING, "--from", "1.1", "--to", "1.5", "--grid", "3",
+        run = self.run_program("map", "scene.toml", *ALONG_DAMPING, "--second-from", "1.1", "--second-to", "1.5", "--grid", "3",
                                "-o", "map.h5", "--force")
         self.assertEqual((run.returncode, run.stdout), (EXIT_NUMBERS_FAILED, ""))
         self.assertRegex(run.stderr, r"\Aeigentrail: scene\.toml: no cell of the window is known, nothing is written; "

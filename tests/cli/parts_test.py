@@ -14,8 +14,8 @@ from loci_comparison import differences
 from program import (BLADE, CURVES, EXIT_NUMBERS_FAILED, FAMILY, OTHER_KERNEL, PROGRAM, PUSHED_PENDULUM, TIME_LIMIT, ProgramTest, each_case,
                      edited)
 
-MAP = ("map", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--grid", "7x9")
-BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--from", "-1", "--to", "1")
+MAP = ("map", "scene.toml", "--second", "drag", "--second-from", "0.5", "--second-to", "20", "--grid", "7x9")
+BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--second-from", "-1", "--second-to", "1")
 
 # Many points a line: a line takes a tenth of a second and more.
 SLOW = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.05")
@@ -52,12 +52,12 @@ class Parts(ProgramTest):
                 self.assertEqual(differences(self.folder / f"merged_{count}.h5", self.folder / "whole.h5"), [])
 
     def test_options_and_settings_of_the_command_line_reach_the_merged_file(self):
-        options = (*MAP, "--set", "length=4", "--tolerance", "1e-7", "--no-certify", "--first-to", "10")
+        options = (*MAP, "--set", "length=4", "--tolerance", "1e-7", "--no-certify", "--to", "10")
         self.run_well(*options, "-o", "whole.h5", "--quiet")
         self.run_well("merge", *self.parts(options, 2), "-o", "merged.h5", "--quiet")
         self.assertEqual(differences(self.folder / "merged.h5", self.folder / "whole.h5"), [])
         self.write("scene.toml", CURVES)
-        options = (*BOUNDARY, "--first-from", "-0.5", "--tolerance", "1e-7", "--lines", "3", "--set", "q=0.1",
+        options = (*BOUNDARY, "--from", "-0.5", "--tolerance", "1e-7", "--lines", "3", "--set", "q=0.1",
                    "--damping-ratio", "0.01")
         self.run_well(*options, "-o", "curves.h5", "--quiet")
         self.run_well("merge", *self.parts(options, 2, "lines"), "-o", "merged_curves.h5", "--quiet")
@@ -84,7 +84,7 @@ class Parts(ProgramTest):
     def test_maps_are_joined_without_the_files_of_the_scene(self):
         self.write("scene.toml", FAMILY.replace("[matrix_family]", '[parameters]\np = 0.0\nq = 1.0\n[matrix_family]')
                    .replace("K = [[[1, 0], [0, 2]]", 'K = [[["q", 0], [0, 2]]'))
-        command = ("map", "scene.toml", "--second", "q", "--from", "1", "--to", "2", "--grid", "3")
+        command = ("map", "scene.toml", "--second", "q", "--second-from", "1", "--second-to", "2", "--grid", "3")
         names = self.parts(command, 2)
         self.run_well(*command, "-o", "whole.h5", "--quiet")
         (self.folder / "scene.toml").unlink()
@@ -133,8 +133,8 @@ class Parts(ProgramTest):
         """There is no equilibrium with p > 1."""
         self.write("scene.toml", edited(PUSHED_PENDULUM, "p = 0.0", "p = 0.0\nr = 0.1")
                    + '[[drag]]\npoint = "bob"\ncoefficient = "r"\n')
-        command = ("map", "scene.toml", "--parameter", "r", "--first-from", "0.1", "--first-to", "1", "--second", "p",
-                   "--from", "1.1", "--to", "1.5", "--grid", "3")
+        command = ("map", "scene.toml", "--parameter", "r", "--from", "0.1", "--to", "1", "--second", "p",
+                   "--second-from", "1.1", "--second-to", "1.5", "--grid", "3")
         names = self.parts(command, 2)
         whole = self.run_program(*command, "-o", "whole.h5")
         run = self.run_program("merge", *names, "-o", "merged.h5")
@@ -164,7 +164,7 @@ class Parts(ProgramTest):
     def test_data_files_that_changed_between_parts_are_noticed(self):
         self.write("scene.toml", FAMILY.split("[matrix_family]")[0].replace("[trace]", "[parameters]\np = 0.0\nq = 1.0\n[trace]")
                    + '[matrix_family]\nfile = "matrices.h5"\n')
-        command = ("map", "scene.toml", "--second", "q", "--from", "1", "--to", "2", "--grid", "3")
+        command = ("map", "scene.toml", "--second", "q", "--second-from", "1", "--second-to", "2", "--grid", "3")
         for i, stiffness in enumerate((1.0, 2.0), start=1):
             with h5py.File(self.folder / "matrices.h5", "w") as file:
                 file["M/0"] = np.eye(2)
@@ -182,7 +182,7 @@ BAD_MERGES = [
     ("the same part under two names", ["a1", "a2", "again"], ["again: is part 2 of 3, as a2 is"]),
     ("another division", ["a1", "b2", "a3"], ["b2: is part 2 of 2, but a1 is part 1 of 3"]),
     ("another scene", ["a1", "c2", "a3"], ["c2: belongs to another run than a1: scene: line 4 was 'omega  ="]),
-    ("another window", ["a1", "d2", "a3"], ["d2: belongs to another run than a1: --to: was '20' and is '21'"]),
+    ("another window", ["a1", "d2", "a3"], ["d2: belongs to another run than a1: --second-to: was '20' and is '21'"]),
     ("another option", ["a1", "e2", "a3"],
      ["e2: belongs to another run than a1: option tolerance: was '' and is '1e-8'"]),
     ("another grid", ["a1", "f2", "a3"], ["f2: belongs to another run than a1: lines: was '7' and is '6'"]),
@@ -215,7 +215,7 @@ class BadMerge(ProgramTest):
         self.part("d2", "2/3", replaced={"20": "21"})
         self.part("e2", "2/3", "--tolerance", "1e-8")
         self.part("f2", "2/3", replaced={"7x9": "6x9"})
-        self.run_well("boundary", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--lines", "0",
+        self.run_well("boundary", "scene.toml", "--second", "drag", "--second-from", "0.5", "--second-to", "20", "--lines", "0",
                       "--part", "2/3", "-o", "g2", "--quiet")
 
     def part(self, name, part, *options, replaced=None):

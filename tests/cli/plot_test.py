@@ -36,7 +36,7 @@ class Plot(ProgramTest):
 
     def test_planes_and_studies(self):
         scene = SCENES / "rotating_mass.toml"
-        window = ("--second", "a_n", "--from", "200", "--to", "3000", "--quiet")
+        window = ("--second", "a_n", "--second-from", "200", "--second-to", "3000", "--quiet")
         self.run_well("boundary", scene, *window, "-o", "flutter.h5")
         self.run_well("map", scene, *window, "--grid", "5x6", "-o", "map.h5")
         self.run_well("accuracy", scene, "--tolerances", "1e-3", "--orders", "2", "--grids", "25", "--repeat", "1",

@@ -32,8 +32,8 @@ class Settings(CommandTest):
 
     def test_serve_every_command_with_a_scene(self):
         for command in (["explain"], ["spectrum", "--at", "50"], ["trace", "-q"], ["trace", "-q", "--resume"],
-                        ["boundary", "-q", "--second", "drag", "--from", "1", "--to", "2"],
-                        ["map", "-q", "--second", "drag", "--from", "1", "--to", "2", "--grid", "2"],
+                        ["boundary", "-q", "--second", "drag", "--second-from", "1", "--second-to", "2"],
+                        ["map", "-q", "--second", "drag", "--second-from", "1", "--second-to", "2", "--grid", "2"],
                         ["accuracy", "-q", "--tolerances", "1e-3", "--orders", "2", "--grids", "none"]):
             with self.subTest(command[0]):
                 self.write("scene.toml", SCENE)

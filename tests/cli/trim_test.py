@@ -58,7 +58,7 @@ class Trim(CommandTest):
 
     def test_an_unknown_is_not_varied(self):
         for command in (("sweep", "scene.toml", "--vary", "pitch=0.1,0.2", "-o", "out"),
-                        ("boundary", "scene.toml", "--second", "pitch", "--from", "0.1", "--to", "0.2", "-o", "out.h5"),
+                        ("boundary", "scene.toml", "--second", "pitch", "--second-from", "0.1", "--second-to", "0.2", "-o", "out.h5"),
                         ("trace", "scene.toml", "--parameter", "pitch", "--from", "0.1", "--to", "0.2", "-o", "out.h5")):
             with self.subTest(command[0]):
                 run = self.run_program(*command)
@@ -66,8 +66,8 @@ class Trim(CommandTest):
                 self.assertIn("'pitch' is the unknown of a [[trim]]", run.stderr)
 
     def test_boundary_is_that_of_traces(self):
-        self.run_well("boundary", "scene.toml", "--second", "weight", "--from", "12000", "--to", "15000", "--first-from", "44",
-                      "--first-to", "46", "--lines", "1", "-o", "limits.h5", "--quiet")
+        self.run_well("boundary", "scene.toml", "--second", "weight", "--second-from", "12000", "--second-to", "15000", "--from", "44",
+                      "--to", "46", "--lines", "1", "-o", "limits.h5", "--quiet")
         with h5py.File(self.folder / "limits.h5") as file:
             self.assertEqual([kind.decode() for kind in file["curve_kind"][:]], ["flutter"])
             omega, weight = file["omega"][:], file["weight"][:]

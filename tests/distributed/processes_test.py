@@ -6,8 +6,8 @@ from loci_comparison import differences
 from program import BLADE, CURVES, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, ProgramTest, edited
 from together import run_together
 
-MAP = ("map", "scene.toml", "--second", "drag", "--from", "0.5", "--to", "20", "--grid", "13x9")
-BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--from", "-1", "--to", "1")
+MAP = ("map", "scene.toml", "--second", "drag", "--second-from", "0.5", "--second-to", "20", "--grid", "13x9")
+BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--second-from", "-1", "--second-to", "1")
 SWEEP = ("sweep", "scene.toml", "--vary", "drag=1,2,5", "--vary", "length=4:0.5:5")
 
 

@@ -365,7 +365,7 @@ class Planes(FigureTest):
     def setUp(self):
         super().setUp()
         scene = SCENES / "rotating_mass.toml"
-        window = ("--second", "a_n", "--from", "200", "--to", "3000")
+        window = ("--second", "a_n", "--second-from", "200", "--second-to", "3000")
         self.run_well("boundary", scene, *window, "-o", "flutter.h5", "--quiet")
         self.run_well("map", scene, *window, "--grid", "6x8", "-o", "map.h5", "--quiet")
         self.map, self.boundary = (eigentrail.open(self.folder / name) for name in ("map.h5", "flutter.h5"))

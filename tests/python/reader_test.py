@@ -176,7 +176,7 @@ class Samples(ProgramTest):
 
 
 class Boundary(FileTest):
-    arguments = ("boundary", "ziegler_column.toml", "--second", "damping", "--from", "0.01", "--to", "1")
+    arguments = ("boundary", "ziegler_column.toml", "--second", "damping", "--second-from", "0.01", "--second-to", "1")
 
     def test_points_have_both_parameters_and_the_curve(self):
         self.assertEqual(set(self.file.eigenvalue.coords), {"point", "load", "damping", "point_curve"})
@@ -197,7 +197,7 @@ class Boundary(FileTest):
 
 
 class Map(FileTest):
-    arguments = ("map", "rotating_mass.toml", "--second", "drag", "--from", "0", "--to", "300", "--grid", "4x7")
+    arguments = ("map", "rotating_mass.toml", "--second", "drag", "--second-from", "0", "--second-to", "300", "--grid", "4x7")
 
     def test_parameters_are_the_axes(self):
         self.assertEqual(dict(self.file.margin.sizes), {"drag": 4, "omega": 7})

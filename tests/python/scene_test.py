@@ -45,13 +45,13 @@ class Scenes(ProgramTest):
 
     def test_a_boundary_is_that_of_the_program(self):
         scene = SCENES / "rotating_mass.toml"
-        self.run_well("boundary", scene, "--second", "drag", "--from", "0.5", "--to", "20", "-o", "program.h5", "--quiet")
+        self.run_well("boundary", scene, "--second", "drag", "--second-from", "0.5", "--second-to", "20", "-o", "program.h5", "--quiet")
         et.boundary(scene, drag=(0.5, 20)).eigentrail.save(self.folder / "python.h5")
         self.assertEqual(differences(self.folder / "program.h5", self.folder / "python.h5"), [])
 
     def test_a_map_is_that_of_the_program(self):
         scene = SCENES / "rotating_mass.toml"
-        self.run_well("map", scene, "--second", "drag", "--from", "0.5", "--to", "20", "--first-from", "80", "--first-to", "5",
+        self.run_well("map", scene, "--second", "drag", "--second-from", "0.5", "--second-to", "20", "--from", "80", "--to", "5",
                       "--grid", "6x9", "-o", "program.h5", "--quiet")
         et.map(scene, drag=(0.5, 20), omega=(80, 5), grid=(6, 9)).eigentrail.save(self.folder / "python.h5")
         self.assertEqual(differences(self.folder / "program.h5", self.folder / "python.h5"), [])

@@ -87,7 +87,7 @@ def good_files(folder):
     add("loci.h5", OF_LOCI, "trace", "blade.toml", "--quiet")
     add("crossing.h5", OF_LOCI, "trace", "crossing.toml", "--quiet")
     add("rotor.h5", OF_LOCI, "trace", SCENES / "jeffcott.toml", "--quiet")
-    plane = ("blade.toml", "--second", "drag", "--from", "1", "--to", "3")
+    plane = ("blade.toml", "--second", "drag", "--second-from", "1", "--second-to", "3")
     add("boundary.h5", OF_OTHERS, "boundary", *plane)
     add("map.h5", OF_OTHERS, "map", *plane)
     add("accuracy.h5", OF_OTHERS, "accuracy", "crossing.toml", "--tolerances", "1e-4,1e-8", "--orders", "2,3", "--samples", "20",

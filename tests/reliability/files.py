@@ -18,8 +18,8 @@ BLADE = SCENES / "rotating_mass.toml"
 # What makes a good file of each kind.
 MAKERS = {
     "loci.h5": ("trace", "scene.toml", "--tolerance", "1e-4", "--quiet"),
-    "boundary.h5": ("boundary", "column.toml", "--second", "damping", "--from", 0.01, "--to", 1, "--lines", 1, "--quiet"),
-    "map.h5": ("map", "column.toml", "--second", "damping", "--from", 0.01, "--to", 1, "--grid", "3x4", "--quiet"),
+    "boundary.h5": ("boundary", "column.toml", "--second", "damping", "--second-from", 0.01, "--second-to", 1, "--lines", 1, "--quiet"),
+    "map.h5": ("map", "column.toml", "--second", "damping", "--second-from", 0.01, "--second-to", 1, "--grid", "3x4", "--quiet"),
     "study.h5": ("accuracy", "column.toml", "--tolerances", "1e-4", "--orders", 2, "--grids", 5, "--samples", 5, "--repeat",
                  1,
                  "--quiet"),

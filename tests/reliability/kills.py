@@ -116,10 +116,10 @@ def kill_once(trace, chance, counts):
     counts.resumed += 1
 
 
-PLANE = ["scene.toml", "--second", "drag", "--from", "0.5", "--to", "20"]
+PLANE = ["scene.toml", "--second", "drag", "--second-from", "0.5", "--second-to", "20"]
 RESUMED = {  # these go on with what they have computed
     "map": ["map", *PLANE, "--grid", "60x20", "--jobs", "1", "--quiet"],
-    "boundary": ["boundary", "plane.toml", "--second", "q", "--from", "-1", "--to", "1", "--lines", "20", "--quiet"],
+    "boundary": ["boundary", "plane.toml", "--second", "q", "--second-from", "-1", "--second-to", "1", "--lines", "20", "--quiet"],
     "accuracy": ["accuracy", "scene.toml", "--tolerances", "1e-4,1e-6,1e-8", "--grids", "25,50", "--samples", "20", "--repeat", "1", "--quiet"],
     "sweep": ["sweep", "scene.toml", "--vary", "drag=1:1:12", "--jobs", "2", "--quiet"],
 }

@@ -32,7 +32,7 @@ class LittleMemory(CommandTest):
             for command in (("trace", "blade.toml", "-o", "blade.h5", "--force"), ("info", "loci.h5"), ("plot", "loci.h5", "--force"),
                             ("import", "numpy", "model.npz", "-o", "numpy", "--force"),
                             ("import", "matlab", "model.mat", "-o", "matlab", "--force"),
-                            ("map", "blade.toml", "--second", "drag", "--from", "1", "--to", "3", "--grid", "2x2", "-o", "map.h5", "--force")):
+                            ("map", "blade.toml", "--second", "drag", "--second-from", "1", "--second-to", "3", "--grid", "2x2", "-o", "map.h5", "--force")):
                 with self.subTest(f"{command[0]} with {megabytes} MB"):
                     run = subprocess.run([PROGRAM, *command], cwd=self.folder, capture_output=True, text=True, check=False, env=environment,
                                          preexec_fn=limited, timeout=TIME_LIMIT)

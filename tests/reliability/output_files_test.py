@@ -27,7 +27,7 @@ class OutputFiles(CommandTest):
     def commands(self):
         """Commands that write to a file, and their outputs."""
         self.trace(FAMILY)
-        plane = ("--second", "drag", "--from", "1", "--to", "3")
+        plane = ("--second", "drag", "--second-from", "1", "--second-to", "3")
         self.write("blade.toml", BLADE)
         return ((("trace", "scene.toml"), "out.h5"), (("report", "loci.h5"), "out.html"), (("export", "loci.h5"), "out.csv"),
                 (("export", "loci.h5"), "out.json"), (("map", "blade.toml", *plane, "--grid", "2x2"), "out.h5"),

@@ -222,7 +222,7 @@ class Campbell(PageTest):
         self.assert_readable("wing", "wing.h5")
 
     def test_two_parameter_study_can_be_read(self):
-        window = ("--second", "drag", "--from", "0.5", "--to", "320", "--first-from", "16", "--quiet")
+        window = ("--second", "drag", "--second-from", "0.5", "--second-to", "320", "--from", "16", "--quiet")
         self.run_well("map", SCENES / "rotating_mass.toml", *window, "--grid", "10x20", "-o", "map.h5")
         self.run_well("boundary", SCENES / "rotating_mass.toml", *window, "-o", "boundary.h5")
         self.assert_readable("study", "map.h5", "boundary.h5")

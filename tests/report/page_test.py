@@ -190,7 +190,7 @@ class Page(PageTest):
 
     def test_map_boundary_and_study_are_drawn(self):
         scene = SCENES / "rotating_mass.toml"
-        window = ("--second", "drag", "--from", "0.5", "--to", "320", "--first-from", "16", "--quiet")
+        window = ("--second", "drag", "--second-from", "0.5", "--second-to", "320", "--from", "16", "--quiet")
         self.run_well("map", scene, *window, "--grid", "10x20", "-o", "map.h5")
         self.run_well("boundary", scene, *window, "-o", "boundary.h5")
         self.run_well("accuracy", scene, "--tolerances", "1e-4,1e-6", "--orders", "2,3", "--grids", "25,50", "--repeat", "1", "--samples", "20",

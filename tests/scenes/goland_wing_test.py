@@ -108,8 +108,8 @@ class GolandWing(RotorTest):
         """Speeds, imaginary parts and altitudes of the first curve over the standard atmosphere; `kinds`: of all curves."""
         self.write("wing.toml", text)
         out = self.folder / "altitude.h5"
-        self.run_well("boundary", "wing.toml", "--second", "altitude", "--from", "0", "--to", "11000", "--first-from", begin,
-                      "--first-to", end, "--lines", "1", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
+        self.run_well("boundary", "wing.toml", "--second", "altitude", "--second-from", "0", "--second-to", "11000", "--from", begin,
+                      "--to", end, "--lines", "1", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
         with h5py.File(out) as file:
             self.assertEqual(list(file["curve_kind"][:]), kinds)
             is_on_it = file["point_curve"][:] == 0

@@ -78,7 +78,7 @@ class LagDamper(RotorTest):
         self.assertGreater(angle[0], 0.1)
 
     def test_curve_of_a_damping_ratio_over_dashpot_and_speed(self):
-        self.run_well("boundary", SCENES / "lag_damper.toml", "--second", "omega", "--from", "5", "--to", "60",
+        self.run_well("boundary", SCENES / "lag_damper.toml", "--second", "omega", "--second-from", "5", "--second-to", "60",
                       "--damping-ratio", "0.1", "--tolerance", "1e-10", "-o", "ratio.h5", "--quiet")
         with h5py.File(self.folder / "ratio.h5") as curves:
             places = list(zip(curves["c"][:], curves["omega"][:]))

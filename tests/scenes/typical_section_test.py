@@ -140,7 +140,7 @@ class TypicalSection(RotorTest):
         text = self.changed(a=-0.4, mu=4.0)
         self.write("section.toml", with_exponentials(text, shares, rates))
         out = self.folder / "boundary.h5"
-        self.run_well("boundary", "section.toml", "--second", "w_h", "--from", "2", "--to", "80", "--first-from", "5", "--first-to",
+        self.run_well("boundary", "section.toml", "--second", "w_h", "--second-from", "2", "--second-to", "80", "--from", "5", "--to",
                       "50", "--tolerance", "1e-6", "-o", out, "--quiet", "--force")
         with h5py.File(out) as file:
             self.assertEqual(list(file["curve_kind"][:]), [b"flutter"])

@@ -108,8 +108,8 @@ class WhirlFlutter(RotorTest):
         """Symmetric in yaw and pitch, and furthest out where both are equal."""
         out = self.folder / "mount.h5"
         self.write("whirl.toml", self.changed(V=100.0))
-        self.run_well("boundary", "whirl.toml", "--parameter", "k_pitch", "--first-from", "5e4", "--first-to", "6e5", "--second",
-                      "k_yaw", "--from", "5e4", "--to", "6e5", "-o", out, "--quiet", "--force")
+        self.run_well("boundary", "whirl.toml", "--parameter", "k_pitch", "--from", "5e4", "--to", "6e5", "--second",
+                      "k_yaw", "--second-from", "5e4", "--second-to", "6e5", "-o", out, "--quiet", "--force")
         with h5py.File(out) as file:
             kinds = {kind.decode() for kind in file["curve_kind"][:]}
             pitch, yaw = file["k_pitch"][:], file["k_yaw"][:]

@@ -117,7 +117,7 @@ class Zeros(VerdictTest):
                 self.assertLess(np.abs(exact - s).min(), 1e-9)
 
     def test_its_map(self):
-        self.run_well("map", MODELS / "slow_beside_stiff_map.toml", "--second", "c", "--from", 1e-4, "--to", 1e-3, "--grid", "2x21",
+        self.run_well("map", MODELS / "slow_beside_stiff_map.toml", "--second", "c", "--second-from", 1e-4, "--second-to", 1e-3, "--grid", "2x21",
                       "-o", "map.h5", "--quiet")
         file = self.open("map.h5")
         p, growing = file["p"][:], file["unstable"][:]
@@ -368,7 +368,7 @@ class UndampedBoundaries(VerdictTest):
             M = [[[1, 0], [0, 1]]]
             K = [[["1 + q / 5", 0], [0, 3]], [[0, 1], [-1, 0]]]
             """)
-        with self.boundary("pair.toml", "--second", "q", "--from", 0, "--to", 2) as found:
+        with self.boundary("pair.toml", "--second", "q", "--second-from", 0, "--second-to", 2) as found:
             self.assertEqual(len(found["curve_points"]), 1)
             self.assertEqual(found.attrs["status"], "completed")
             for p, q, s in zip(found["p"][:], found["q"][:], found["eigenvalue"][:]):
@@ -385,7 +385,7 @@ class UndampedBoundaries(VerdictTest):
             C = [[[0, 0], [0, 0]], [[0, -2], [2, 0]]]
             K = [[[-1, 0], [0, "-b"]]]
             """)
-        with self.boundary("gyroscopic.toml", "--second", "b", "--from", 1.5, "--to", 4) as found:
+        with self.boundary("gyroscopic.toml", "--second", "b", "--second-from", 1.5, "--second-to", 4) as found:
             self.assertEqual(len(found["curve_points"]), 1)
             for W, b, s in zip(found["W"][:], found["b"][:], found["eigenvalue"][:]):
                 self.assertLess(abs(W - (1 + math.sqrt(b)) / 2), 1e-8)
@@ -393,7 +393,7 @@ class UndampedBoundaries(VerdictTest):
 
     def test_the_undamped_limit_is_another_one(self):
         # Ziegler's column: with damping it flutters above 41 / 28, however small the damping is; without it above that.
-        with self.boundary(SCENES / "ziegler_column.toml", "--second", "damping", "--from", 0, "--to", 1) as found:
+        with self.boundary(SCENES / "ziegler_column.toml", "--second", "damping", "--second-from", 0, "--second-to", 1) as found:
             self.assertEqual(len(found["curve_points"]), 1)
             self.assertAlmostEqual(min(found["load"][:]), 41 / 28, delta=1e-6)
             self.assertIn("onset of flutter without damping", str(found.attrs["notes"]))
