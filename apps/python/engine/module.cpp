@@ -15,9 +15,10 @@ namespace {
 
 /// Options of the program are keywords here: --damping-ratio is damping_ratio, and a range has both its ends.
 std::string in_words_of_python(std::string message) {
-  static const std::regex ends("as --(first-)?(from|to)"), hyphen("(--[a-z_]+)-(?=[a-z])"),
-      dashes("--(?=[a-z])");
+  static const std::regex ends("as --(from|to)"), second("--second-(?=from|to)"),
+      hyphen("(--[a-z_]+)-(?=[a-z])"), dashes("--(?=[a-z])");
   message = std::regex_replace(message, ends, "as a range such as speed=(0, 400)");
+  message = std::regex_replace(message, second, "");
   while (std::regex_search(message, hyphen)) message = std::regex_replace(message, hyphen, "$1_");
   return std::regex_replace(message, dashes, "");
 }
