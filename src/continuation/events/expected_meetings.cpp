@@ -1,7 +1,6 @@
 #include "continuation/events/expected_meetings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -10,7 +9,6 @@
 #include "continuation/events/common_collision.hpp"
 #include "continuation/events/meeting_resolution.hpp"
 #include "continuation/events/roots_on_step.hpp"
-#include "continuation/step/shared_basis.hpp"
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"

@@ -126,9 +126,6 @@ class MeetingLanding {
   bool is_left_end(const ExpectedMeeting& expected, double distance) const;
   bool attempt(double distance);
   void record(const ExpectedMeeting& expected, int looks);
-  const Track& left_track(const ExpectedMeeting& expected) const {
-    return step_.left->tracks[expected.a.track];
-  }
 
   StepSolver& solver_;
   const Step& step_;  ///< the whole step; distances are measured from its left end
@@ -284,7 +281,8 @@ MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, doub
   if (approach == Approach::nothing) return Cut::none;
   // At one end of every step, at least, the eigenvalues of a block must be distinct, so that they can be
   // identified. If the step begins at a meeting it ends half way to the next one.
-  const bool between = approach == Approach::reached && left_track(expected).departure.has_value();
+  const bool between =
+      approach == Approach::reached && step_.left->tracks[expected.a.track].departure.has_value();
   if (between) distance *= 0.5;
   bool landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
   if (landed && !between && !meeting_at_end(expected)) {

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numeric>
 
-#include "continuation/step/step_error.hpp"
 #include "continuation/tracks/eigenvalue_branches.hpp"
 #include "continuation/tracks/grouping_errors.hpp"
 #include "continuation/tracks/members.hpp"
