@@ -127,7 +127,6 @@ struct LociWriter::Implementation {
   ModeMotions motions;
   std::vector<ComplexVector> last_shapes = {};  ///< per mode: its shape at the last point where it existed
   std::size_t events = 0;                       ///< number of events written so far
-  bool is_saved = false;                        ///< whether this run has saved the file
   Clock::time_point last_saved = Clock::now();
   double cost = 0.0;                         ///< seconds that the last save took
   std::string bytes = {};                    ///< what was saved, of a file that stays in memory
@@ -343,7 +342,6 @@ void LociWriter::Implementation::save(const Checkpoint& checkpoint, const char* 
   const std::string state =
       marked_data(image, packed(checkpoint.save(), packed(last_shapes, motions, events)));
   save(std::move(image), state);
-  is_saved = true;
   last_saved = Clock::now();
   cost = seconds_since(begin);
 }
@@ -352,7 +350,7 @@ bool LociWriter::checkpoint(const Checkpoint& checkpoint) {
   Implementation& self = *implementation_;
   if (self.path.empty()) return false;
   const double interval = std::max(self.saving.interval, self.cost / largest_share);
-  if (self.is_saved && seconds_since(self.last_saved) < interval) return false;
+  if (seconds_since(self.last_saved) < interval) return false;
   self.save(checkpoint, "running");
   return true;
 }

@@ -83,9 +83,9 @@ class Interrupted(ProgramTest):
         super().setUp()
         self.write("scene.toml", LONG)
 
-    def start(self, *options, output="out.h5", **settings):
-        return subprocess.Popen([PROGRAM, "trace", "scene.toml", "-o", output, "--quiet", *options], cwd=self.folder,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **settings)
+    def start(self, *options, output="out.h5", save_every="0.02", **settings):
+        return subprocess.Popen([PROGRAM, "trace", "scene.toml", "-o", output, "--quiet", "--save-every", save_every, *options],
+                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **settings)
 
     def wait_for(self, name):
         """Waits until the running trace has saved its file for the first time."""
@@ -175,7 +175,7 @@ class Interrupted(ProgramTest):
         whole = self.whole()
         for delay in (0.0, 0.02, 0.05, 0.1, 0.2):
             with self.subTest(delay):
-                run = self.start("--save-every", "0.02")
+                run = self.start()
                 self.wait_for("out.h5")
                 time.sleep(delay)
                 run.kill()
@@ -188,7 +188,7 @@ class Interrupted(ProgramTest):
                 (self.folder / "out.h5").unlink()
 
     def test_reader_sees_a_consistent_prefix(self):
-        run = self.start("--save-every", "0.01")
+        run = self.start(save_every="0.01")
         self.wait_for("out.h5")
         lengths = []
         while run.poll() is None:
@@ -220,7 +220,7 @@ class Interrupted(ProgramTest):
             resource.setrlimit(resource.RLIMIT_FSIZE, (size // 2, size // 2))
 
         # Counts of lines, where they are kept, would meet the limit, too.
-        run = self.start("--save-every", "0", preexec_fn=limit, env={**os.environ, "LLVM_PROFILE_FILE": "/dev/null"})
+        run = self.start(save_every="0", preexec_fn=limit, env={**os.environ, "LLVM_PROFILE_FILE": "/dev/null"})
         said = run.communicate(timeout=2 * TIME_LIMIT)[1]
         self.assertEqual(run.returncode, EXIT_NUMBERS_FAILED, said)
         self.assertRegex(said, r"^eigentrail: out\.h5: cannot be written on: .*; \d+ points are in out\.h5; make room, "

@@ -39,11 +39,11 @@ struct SaveOptions {
 
 class LociWriter {
  public:
-  /// Begins a file. The first checkpoint writes it to the disk. The first point of the trace, `first`,
-  /// defines the directions of motion for the names of modes; it must be appended with `append` as well. The
-  /// file is saved every `interval` seconds, or less often if saving would take more than a twentieth of the
-  /// time. Throws InputError if the file cannot be created or another process writes it. Without a `path` the
-  /// file stays in memory: checkpoints save nothing, and `bytes` gives it.
+  /// Begins a file. The first point of the trace, `first`, defines the directions of motion for the names of
+  /// modes; it must be appended with `append` as well. Checkpoints save the file every `interval` seconds, or
+  /// less often if saving would take more than a twentieth of the time. Throws InputError if the file cannot
+  /// be created or another process writes it. Without a `path` the file stays in memory: checkpoints save
+  /// nothing, and `bytes` gives it.
   LociWriter(const std::string& path, const Scene& scene, const Model& model, const TraceOptions& options,
              const TraceStart& start, const TracePoint& first, const SaveOptions& saving = {});
 
@@ -62,8 +62,7 @@ class LociWriter {
   /// Adds a point and the step that led to it.
   void append(const TracePoint& point);
 
-  /// Saves the file and the state of the trace if the interval has passed, and always at the first call.
-  /// Returns whether it has saved.
+  /// Saves the file and the state of the trace if the interval has passed. Returns whether it has saved.
   bool checkpoint(const Checkpoint& checkpoint);
 
   /// Saves the file and the state of the trace, with status "interrupted".
