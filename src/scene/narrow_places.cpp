@@ -14,9 +14,11 @@ constexpr int degree = 4;
 /// A piece is described by a polynomial if that term is at most this share of the largest value of the
 /// expression. The places are only to be noticed; a smaller share finds weaker ones.
 constexpr double described = 1e-3;
-/// Pieces are halved down to this share of the range, and up to that many pieces.
+/// Pieces are halved down to this share of the range, while there are at most so many of one length that are
+/// not described. Where there are more, the function varies all over the range, or intervals say nothing of
+/// it, as of terms that cancel each other.
 constexpr double shortest = 1e-8;
-constexpr std::size_t most_pieces = 4000;
+constexpr std::size_t most_open = 512;
 /// Pieces into which the range is divided at first, and places at which the scale of the values is taken.
 constexpr int first_pieces = 16;
 constexpr int samples = 256;
@@ -95,9 +97,11 @@ class Partition {
   Partition(const Described& f, double begin, double end)
       : f_(f), shortest_(shortest * (end - begin)), scale_(scale_of(f, begin, end)) {
     const double step = (end - begin) / first_pieces;
-    for (int i = 0; i < first_pieces; ++i) {
-      add({begin + i * step, i + 1 == first_pieces ? end : begin + (i + 1) * step});
-    }
+    std::vector<Piece> open;
+    for (int i = 0; i < first_pieces; ++i)
+      open.push_back({begin + i * step, i + 1 == first_pieces ? end : begin + (i + 1) * step});
+    while (!open.empty()) open = halves_of(open);
+    std::ranges::sort(pieces_, {}, &Piece::begin);
   }
 
   const std::vector<Piece>& pieces() const { return pieces_; }
@@ -108,13 +112,18 @@ class Partition {
     return term.magnitude() * std::pow(0.5 * piece.length(), degree) <= described * scale_;
   }
 
-  void add(const Piece& piece) {
-    if (is_described(piece) || piece.length() <= shortest_ || pieces_.size() >= most_pieces) {
-      pieces_.push_back(piece);
-      return;
+  /// Keeps those pieces that are described, or not halved, and returns the halves of the others.
+  std::vector<Piece> halves_of(const std::vector<Piece>& open) {
+    std::vector<Piece> halves;
+    for (const Piece& piece : open) {
+      if (open.size() > most_open || piece.length() <= shortest_ || is_described(piece)) {
+        pieces_.push_back(piece);
+        continue;
+      }
+      halves.push_back({piece.begin, piece.middle()});
+      halves.push_back({piece.middle(), piece.end});
     }
-    add({piece.begin, piece.middle()});
-    add({piece.middle(), piece.end});
+    return halves;
   }
 
   const Described& f_;
