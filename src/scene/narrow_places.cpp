@@ -14,9 +14,9 @@ constexpr int degree = 4;
 /// A piece is described by a polynomial if that term is at most this share of the largest value of the
 /// expression. The places are only to be noticed; a smaller share finds weaker ones.
 constexpr double described = 1e-3;
-/// Pieces are halved down to this share of the range, while there are at most so many of one length that are
-/// not described. Where there are more, the function varies all over the range, or intervals say nothing of
-/// it, as of terms that cancel each other.
+/// Pieces are halved down to this share of the range. Where more pieces of one length than `most_open` are
+/// not described, nothing is narrow: the function varies all over the range, or intervals say nothing of it,
+/// as of terms that cancel each other.
 constexpr double shortest = 1e-8;
 constexpr std::size_t most_open = 512;
 /// Pieces into which the range is divided at first, and places at which the scale of the values is taken.
@@ -91,7 +91,8 @@ class ParametersAlong {
   std::map<double, std::vector<double>> numbers_;
 };
 
-/// The range in pieces on each of which the function is described by a polynomial.
+/// The range in pieces on each of which the function is described by a polynomial; none where nothing is
+/// narrow.
 class Partition {
  public:
   Partition(const Described& f, double begin, double end)
@@ -100,7 +101,8 @@ class Partition {
     std::vector<Piece> open;
     for (int i = 0; i < first_pieces; ++i)
       open.push_back({begin + i * step, i + 1 == first_pieces ? end : begin + (i + 1) * step});
-    while (!open.empty()) open = halves_of(open);
+    while (!open.empty() && open.size() <= most_open) open = halves_of(open);
+    if (!open.empty()) pieces_.clear();
     std::ranges::sort(pieces_, {}, &Piece::begin);
   }
 
@@ -116,7 +118,7 @@ class Partition {
   std::vector<Piece> halves_of(const std::vector<Piece>& open) {
     std::vector<Piece> halves;
     for (const Piece& piece : open) {
-      if (open.size() > most_open || piece.length() <= shortest_ || is_described(piece)) {
+      if (piece.length() <= shortest_ || is_described(piece)) {
         pieces_.push_back(piece);
         continue;
       }

@@ -18,7 +18,7 @@ std::vector<double> places(const std::string& text, double from = 0.0, double to
 TEST(NarrowPlaces, OfSmoothExpressionsAreNone) {
   for (const char* text :
        {"3", "p", "2 + p^4 - p", "sin(5*p)", "exp(-p)", "1/(1 + p^2)", "sqrt(1 + p)", "p - p", "tanh(3*p)",
-        "cos(p)^2 + sin(p)^2", "(1 + p)^1.5", "log(2 + p)", "atan(4*p)"})
+        "cos(p)^2 + sin(p)^2", "(1 + p)^1.5", "log(2 + p)", "atan(4*p)", "sin(p)*cos(p) - cos(p)*sin(p)"})
     EXPECT_TRUE(places(text).empty()) << text;
 }
 
