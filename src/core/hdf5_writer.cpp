@@ -14,9 +14,13 @@ namespace eigentrail {
 struct Hdf5Writer::Implementation {
   std::string path;
   Handle file;
+  mutable std::map<std::string, Handle> open = {};  ///< datasets that have been used
 
-  Handle dataset(const std::string& name) const {
-    return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path};
+  hid_t dataset(const std::string& name) const {
+    const auto known = open.find(name);
+    if (known != open.end()) return known->second;
+    Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name + " of " + path);
+    return open.emplace(name, std::move(set)).first->second;
   }
 };
 
@@ -163,7 +167,7 @@ void Hdf5Writer::write(const std::string& name, std::uint64_t first_row, Element
       texts.push_back(text.c_str());
     data = texts.data();
   }
-  const Handle set = implementation_->dataset(name);
+  const hid_t set = implementation_->dataset(name);
   const Shape found = shape(name);
   std::vector<hsize_t> dims(found.begin(), found.end());
   hsize_t row = 1;
@@ -223,13 +227,13 @@ void Hdf5Writer::extend(const std::string& dataset, unsigned dimension, std::uin
 }
 
 void Hdf5Writer::make_scale(const std::string& dataset, const std::string& label) {
-  const Handle set = implementation_->dataset(dataset);
+  const hid_t set = implementation_->dataset(dataset);
   check(H5DSset_scale(set, label.c_str()), "make " + dataset + " a dimension scale");
 }
 
 void Hdf5Writer::attach_scale(const std::string& dataset, const std::string& scale, unsigned dimension) {
-  const Handle set = implementation_->dataset(dataset);
-  const Handle scale_set = implementation_->dataset(scale);
+  const hid_t set = implementation_->dataset(dataset);
+  const hid_t scale_set = implementation_->dataset(scale);
   check(H5DSattach_scale(set, scale_set, dimension), "attach scale " + scale + " to " + dataset);
 }
 
@@ -248,7 +252,7 @@ bool Hdf5Writer::has(const std::string& dataset) const {
 }
 
 Shape Hdf5Writer::shape(const std::string& dataset) const {
-  const Handle set = implementation_->dataset(dataset);
+  const hid_t set = implementation_->dataset(dataset);
   const Handle space(H5Dget_space(set), H5Sclose, "read the shape of " + dataset);
   std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
   check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + dataset);
