@@ -53,7 +53,7 @@ class Hdf5Writer {
   void extend(const std::string& dataset, unsigned dimension, std::uint64_t size);
 
   /// Writes whole rows (first index) from `first_row` on and extends the dataset if necessary. Data are
-  /// row-major.
+  /// row-major; without any nothing happens.
   template <class Element>
   void write_rows(const std::string& dataset, std::uint64_t first_row, const std::vector<Element>& data) {
     write(dataset, first_row, element_type<Element>(), data.size(), data.data());

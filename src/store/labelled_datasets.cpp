@@ -4,6 +4,18 @@
 
 namespace eigentrail {
 
+void create_dataset(Hdf5Writer& file, const DatasetLabel& label, ElementType type,
+                    const std::vector<std::string>& dimensions, bool growing,
+                    std::map<std::string, std::string> attributes) {
+  Shape shape;
+  for (const std::string& dimension : dimensions) shape.push_back(file.shape(dimension)[0]);
+  attributes["units"] = label.units;
+  attributes["long_name"] = label.long_name;
+  file.create_dataset({label.name, type, shape, growing, attributes});
+  for (std::size_t d = 0; d < dimensions.size(); ++d)
+    file.attach_scale(label.name, dimensions[d], static_cast<unsigned>(d));
+}
+
 std::vector<std::int64_t> counted(std::size_t count, std::size_t first) {
   std::vector<std::int64_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), static_cast<std::int64_t>(first));

@@ -21,18 +21,18 @@ struct DatasetLabel {
   std::string long_name;
 };
 
-/// Writes `data` (row-major) over dimensions that exist already; the shape follows from them.
+/// Creates a dataset over dimensions that exist already; its shape follows from them. `growing`: it may be
+/// extended later.
+void create_dataset(Hdf5Writer& file, const DatasetLabel& label, ElementType type,
+                    const std::vector<std::string>& dimensions, bool growing,
+                    std::map<std::string, std::string> attributes);
+
+/// Writes `data` (row-major) as such a dataset.
 template <class Element>
 void write_dataset(Hdf5Writer& file, const DatasetLabel& label, const std::vector<std::string>& dimensions,
                    const std::vector<Element>& data, std::map<std::string, std::string> attributes = {}) {
-  Shape shape;
-  for (const std::string& dimension : dimensions) shape.push_back(file.shape(dimension)[0]);
-  attributes["units"] = label.units;
-  attributes["long_name"] = label.long_name;
-  file.create_dataset({label.name, element_type<Element>(), shape, data.empty(), attributes});
-  if (!data.empty()) file.write_rows(label.name, 0, data);
-  for (std::size_t d = 0; d < dimensions.size(); ++d)
-    file.attach_scale(label.name, dimensions[d], static_cast<unsigned>(d));
+  create_dataset(file, label, element_type<Element>(), dimensions, data.empty(), std::move(attributes));
+  file.write_rows(label.name, 0, data);
 }
 
 /// Writes a one-dimensional dataset and makes it the scale of a dimension of the same name. `growing`: it may
@@ -45,7 +45,7 @@ void write_dimension(Hdf5Writer& file, const DatasetLabel& label, const std::vec
                        {values.size()},
                        growing || values.empty(),
                        {{"units", label.units}, {"long_name", label.long_name}}});
-  if (!values.empty()) file.write_rows(label.name, 0, values);
+  file.write_rows(label.name, 0, values);
   file.make_scale(label.name, label.name);
 }
 

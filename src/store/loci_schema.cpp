@@ -174,27 +174,25 @@ std::vector<LociDataset> growing_datasets(const Model& model, const TraceOptions
       {"{per unit}", unit == "1" ? "1/s" : "1/s/(" + unit + ")"},
       {"{coordinates}", loci_schema::common_unit(description)}};
   std::vector<LociDataset> list{
-      {parameter, ElementType::real, {"node"}, unit, "traced parameter " + parameter}};
+      {{parameter, unit, "traced parameter " + parameter}, ElementType::real, {"node"}}};
   const std::set<loci_schema::Needs> had = loci_schema::had_by(model, options);
   for (const loci_schema::Row& row : loci_schema::rows) {
     if (had.contains(row.needs))
-      list.push_back({row.name, row.type, loci_schema::words(row.dimensions),
-                      loci_schema::filled(row.units, words_for),
-                      loci_schema::filled(row.long_name, words_for)});
+      list.push_back({{row.name, loci_schema::filled(row.units, words_for),
+                       loci_schema::filled(row.long_name, words_for)},
+                      row.type,
+                      loci_schema::words(row.dimensions)});
   }
   for (const Trim& trim : description.trims) {
     const Parameter& trimmed = description.parameters[static_cast<std::size_t>(trim.parameter)];
     const std::string trimmed_unit = label_unit(trimmed.unit);
-    list.push_back({trimmed.name,
+    list.push_back({{trimmed.name, trimmed_unit, "trimmed parameter " + trimmed.name + ": " + trim.condition},
                     ElementType::real,
-                    {"node"},
-                    trimmed_unit,
-                    "trimmed parameter " + trimmed.name + ": " + trim.condition});
-    list.push_back({step_dataset(trimmed.name),
+                    {"node"}});
+    list.push_back({{step_dataset(trimmed.name), trimmed_unit,
+                     "series of " + trimmed.name + " in the path's coordinate at both ends"},
                     ElementType::real,
-                    {"step", "end", "order"},
-                    trimmed_unit,
-                    "series of " + trimmed.name + " in the path's coordinate at both ends"});
+                    {"step", "end", "order"}});
   }
   return list;
 }
@@ -222,8 +220,9 @@ std::vector<std::string> datasets_of_events() {
 
 LociDataset whole_dataset(const std::string& name, const std::string& parameter_unit) {
   const auto* row = std::ranges::find(loci_schema::whole, name, &loci_schema::Row::name);
-  return {name, row->type, loci_schema::words(row->dimensions),
-          loci_schema::filled(row->units, {{"{unit}", parameter_unit}}), row->long_name};
+  return {{name, loci_schema::filled(row->units, {{"{unit}", parameter_unit}}), row->long_name},
+          row->type,
+          loci_schema::words(row->dimensions)};
 }
 
 std::vector<LociDataset> datasets_of_ranges() {

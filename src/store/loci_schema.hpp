@@ -10,12 +10,9 @@
 
 namespace eigentrail {
 
-struct LociDataset {
-  std::string name;
+struct LociDataset : DatasetLabel {
   ElementType type = ElementType::real;
   std::vector<std::string> dimensions;
-  std::string units;
-  std::string long_name;
 };
 
 /// The datasets that grow during a trace of `model`, in the order of their creation.
@@ -39,7 +36,7 @@ LociDataset whole_dataset(const std::string& name, const std::string& parameter_
 /// Writes such a dataset; its dimensions must exist.
 template <class Element>
 void write_whole(Hdf5Writer& file, const LociDataset& dataset, const std::vector<Element>& data) {
-  write_dataset(file, {dataset.name, dataset.units, dataset.long_name}, dataset.dimensions, data);
+  write_dataset(file, dataset, dataset.dimensions, data);
 }
 
 /// The datasets along the dimension `range`.

@@ -16,7 +16,7 @@ std::vector<std::string> numbered_modes(std::size_t first, std::size_t end) {
   return names;
 }
 
-void create_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes) {
+void create_own_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes) {
   const ModelDescription& description = model.description();
   const auto create = [&file](const char* name, const char* long_name, const auto& labels,
                               bool growing = false) {
@@ -91,23 +91,12 @@ void write_projection(Hdf5Writer& file, const Projection& projection) {
 
 }  // namespace
 
-void create_loci_datasets(Hdf5Writer& file, const Model& model, const TraceOptions& options, int order,
-                          std::size_t modes, const std::vector<std::string>& motions) {
-  create_dimensions(file, model, order, modes);
+void create_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes,
+                       const std::vector<std::string>& motions) {
+  create_own_dimensions(file, model, order, modes);
   write_shafts(file, model.description());
   if (const Projection* projection = model.projection()) write_projection(file, *projection);
   if (!motions.empty()) write_dimension(file, {"motion", "1", "motion of a mass"}, motions);
-  for (const LociDataset& dataset : growing_datasets(model, options)) {
-    Shape shape;
-    for (const std::string& dimension : dataset.dimensions) shape.push_back(file.shape(dimension)[0]);
-    std::map<std::string, std::string> attributes{{"units", dataset.units}, {"long_name", dataset.long_name}};
-    // By the CF conventions this makes the parameter an auxiliary coordinate along `node`.
-    if (dataset.dimensions[0] == "node" && dataset.name != options.parameter)
-      attributes["coordinates"] = options.parameter;
-    file.create_dataset({dataset.name, dataset.type, shape, true, attributes});
-    for (std::size_t d = 0; d < dataset.dimensions.size(); ++d)
-      file.attach_scale(dataset.name, dataset.dimensions[d], static_cast<unsigned>(d));
-  }
 }
 
 LociTables::LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options)
@@ -166,21 +155,37 @@ void LociTables::begin_row(const std::string& dimension) {
   }
 }
 
-void LociTables::write_rows() {
-  const Hdf5Turn turn;
-  for (auto& [dimension, begun] : begun_) {
-    std::size_t& size = sizes_.at(dimension);
-    file_.write_rows(dimension, size, counted(begun, size));
-    for (Column& column : columns_) {
-      if (column.dataset.dimensions[0] != dimension) continue;
-      const auto write = [&](auto& rows) {
-        file_.write_rows(column.dataset.name, size, rows);
-        rows.clear();
-      };
-      std::visit(write, column.rows);
-    }
-    size += std::exchange(begun, 0);
+void LociTables::create_columns(std::optional<std::size_t> events) {
+  const std::string& parameter = columns_.front().dataset.name;
+  if (file_.has(parameter)) return;
+  if (events) file_.write_rows("event", 0, counted(*events));
+  for (const auto& [dataset, rows] : columns_) {
+    const std::string& along = dataset.dimensions[0];
+    std::map<std::string, std::string> attributes;
+    // By the CF conventions this makes the parameter an auxiliary coordinate along `node`.
+    if (along == "node" && dataset.name != parameter) attributes["coordinates"] = parameter;
+    const bool grows = !events || file_.shape(along)[0] == 0;  // netCDF knows no other empty dimensions
+    create_dataset(file_, dataset, dataset.type, dataset.dimensions, grows, std::move(attributes));
   }
+}
+
+void LociTables::write_rows(std::optional<std::size_t> events) {
+  const Hdf5Turn turn;
+  for (const auto& [dimension, begun] : begun_) {
+    const std::size_t written = sizes_.at(dimension);
+    file_.write_rows(dimension, written, counted(begun, written));
+  }
+  create_columns(events);
+  for (Column& column : columns_) {
+    const std::string& along = column.dataset.dimensions[0];
+    if (!begun_.contains(along)) continue;
+    const auto write = [&](auto& rows) {
+      file_.write_rows(column.dataset.name, sizes_.at(along), rows);
+      rows.clear();
+    };
+    std::visit(write, column.rows);
+  }
+  for (auto& [dimension, begun] : begun_) sizes_.at(dimension) += std::exchange(begun, 0);
 }
 
 }  // namespace eigentrail

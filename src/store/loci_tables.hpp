@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 
 #include "core/hdf5_writer.hpp"
@@ -9,15 +10,17 @@
 
 namespace eigentrail {
 
-/// Creates all datasets in `file`, which must be empty: for `modes` modes and power series of this order.
-/// `motions`: labels of the motions of the model's masses.
-void create_loci_datasets(Hdf5Writer& file, const Model& model, const TraceOptions& options, int order,
-                          std::size_t modes, const std::vector<std::string>& motions);
+/// Creates the datasets of all dimensions, and those that the model determines, in `file`, which must be
+/// empty: for `modes` modes and power series of this order. `motions`: labels of the motions of the model's
+/// masses.
+void create_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes,
+                       const std::vector<std::string>& motions);
 
-/// Appends rows to them. Rows of the dimensions `node` and `step` are collected before they are written.
+/// Creates the datasets over them, and appends rows. Rows of the dimensions `node` and `step` are collected
+/// before they are written.
 class LociTables {
  public:
-  /// For a file that has the datasets, behind the rows that are written.
+  /// For a file that has the dimensions, behind the rows that are written.
   LociTables(Hdf5Writer file, const Model& model, const TraceOptions& options);
 
   std::size_t modes() const { return sizes_.at("mode"); }
@@ -40,7 +43,9 @@ class LociTables {
 
   /// Number of nodes that have been begun and not written.
   std::size_t pending() const { return begun_.at("node"); }
-  void write_rows();
+  /// `events`: how many there are, if neither rows nor events come later. Datasets that are created then have
+  /// the size they need; others can grow, which takes chunks of space.
+  void write_rows(std::optional<std::size_t> events = {});
 
   Hdf5Writer& file() { return file_; }
 
@@ -53,6 +58,7 @@ class LociTables {
 
   Column& column_called(const std::string& dataset);
   std::size_t width(const Column& column) const;  ///< elements of a row
+  void create_columns(std::optional<std::size_t> events);
   template <class Label>
   void grow(const std::string& dimension, const std::vector<Label>& added);
 

@@ -136,7 +136,7 @@ struct LociWriter::Implementation {
   void append_point(const TracePoint& point);
   void append_modes(const TracePoint& point);
   void append_step(const PathStep& step);
-  void update(const TraceResult& result, const char* status);
+  void update(const TraceResult& result, const char* status, bool is_last = false);
   void save(const Checkpoint& checkpoint, const char* status);
   void save(std::string image, std::string_view state);
 };
@@ -159,7 +159,7 @@ LociTables new_tables(const std::string& path, const Scene& scene, const Model& 
   std::string data;
   for (const auto& [label, text] : model.description().data) data += label + ": " + text + "\n";
   if (!data.empty()) file.set_attribute("model_data", data);
-  create_loci_datasets(file, model, options, start.order, static_cast<std::size_t>(start.n_modes), motions);
+  create_dimensions(file, model, start.order, static_cast<std::size_t>(start.n_modes), motions);
   return {std::move(file), model, options};
 }
 
@@ -310,9 +310,9 @@ void LociWriter::append(const TracePoint& point) {
   if (self.tables.pending() >= most_rows) self.tables.write_rows();
 }
 
-/// Writes all that is new since the last save to the file in memory.
-void LociWriter::Implementation::update(const TraceResult& result, const char* status) {
-  tables.write_rows();
+/// Writes all that is new since the last save to the file in memory. `is_last`: nothing comes after it.
+void LociWriter::Implementation::update(const TraceResult& result, const char* status, bool is_last) {
+  tables.write_rows(is_last ? std::optional(result.events.size()) : std::nullopt);
   Hdf5Writer& file = tables.file();
   write_events(file, result.events, events);
   events = result.events.size();
@@ -376,7 +376,7 @@ void LociWriter::finish(const TraceResult& result, const std::vector<StableRange
     clear_events(self.tables.file());
     self.events = 0;
   }
-  self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early");
+  self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early", true);
   const std::string unit = label_unit(self.model.description().parameters.at(self.parameter).unit);
   write_stable_ranges(self.tables.file(), unit, ranges);
   if (errors != nullptr) write_data_errors(self.tables.file(), unit, *errors);
