@@ -20,25 +20,22 @@ class BeamBuilder {
   BeamBuilder(Draft& draft, TableReader& table, const BeamDesign& design)
       : draft_(draft),
         table_(table),
-        name_(design.name),
-        section_(design.sections),
-        damping_times_(design.damping_times) {
-    axis_ = beam_axis(section_, design.elements, design.degree, design.ends[0].position,
-                      design.ends[1].position, design.y);
-  }
+        design_(design),
+        axis_(beam_axis(design.sections, design.elements, design.degree, design.ends[0].position,
+                        design.ends[1].position, design.y)) {}
 
-  void build(const std::array<BeamEnd, 2>& ends) {
+  void build() {
     first_body_ = draft_.bodies.size();
     add_nodes();
     add_sections();
-    hold(ends[0], first_body_);
-    hold(ends[1], draft_.bodies.size() - 1);
+    hold(design_.ends[0], first_body_);
+    hold(design_.ends[1], draft_.bodies.size() - 1);
   }
 
  private:
   std::string node_name(int i) const {
-    if (i == 0) return name_ + ".root";
-    return name_ + "." + (i == axis_.nodes() - 1 ? "tip" : std::to_string(i));
+    if (i == 0) return design_.name + ".root";
+    return design_.name + "." + (i == axis_.nodes() - 1 ? "tip" : std::to_string(i));
   }
 
   void add_nodes() {
@@ -61,19 +58,19 @@ class BeamBuilder {
   /// Gauss-Lobatto quadrature (Fried & Malkus 1975).
   std::vector<BeamTable::Mass> nodal_masses() const {
     std::vector<std::vector<double>> share(static_cast<std::size_t>(axis_.nodes()),
-                                           std::vector<double>(section_.span.size(), 0.0));
+                                           std::vector<double>(design_.sections.span.size(), 0.0));
     std::vector<BeamTable::Mass> result(static_cast<std::size_t>(axis_.nodes()));
     for (int e = 0; e < axis_.elements; ++e) {
       for_each_mass_point(e, [&](double xi, double weight) {
         const ShapeFunctions shape = shape_functions(axis_.degree, xi);
         const Expression stretch = axis_.straight ? Expression(1.0) : axis_.stretch(e, shape);
         for (std::size_t a = 0; a < shape.value.size(); ++a) {
-          for (const auto& [station, part] : section_.shares((e + xi) / axis_.elements)) {
+          for (const auto& [station, part] : design_.sections.shares((e + xi) / axis_.elements)) {
             const double w = weight * shape.value[a] * part;
             if (axis_.straight)
               share[axis_.node(e, a)][station] += w;
             else
-              add(result[axis_.node(e, a)], Expression(w) * stretch, section_.mass[station]);
+              add(result[axis_.node(e, a)], Expression(w) * stretch, design_.sections.mass[station]);
           }
         }
       });
@@ -82,7 +79,7 @@ class BeamBuilder {
     const Expression length = Expression(1.0 / axis_.elements) * axis_.length;
     for (std::size_t i = 0; i < result.size(); ++i) {
       for (std::size_t k = 0; k < share[i].size(); ++k)
-        add(result[i], Expression(share[i][k]) * length, section_.mass[k]);
+        add(result[i], Expression(share[i][k]) * length, design_.sections.mass[k]);
     }
     return result;
   }
@@ -95,7 +92,7 @@ class BeamBuilder {
   template <class Visit>
   void for_each_mass_point(int e, Visit visit) const {
     std::vector<double> ends = {0.0};
-    for (const double s : section_.span) {
+    for (const double s : design_.sections.span) {
       const double xi = s * axis_.elements - e;
       if (xi > 1e-9 && xi < 1.0 - 1e-9) ends.push_back(xi);
     }
@@ -111,13 +108,11 @@ class BeamBuilder {
   /// interpolation then has as many constraints as it can meet when the beam is slender, and does not lock
   /// (Noor & Peters 1981).
   void add_sections() {
-    const auto n_nodes = static_cast<std::size_t>(axis_.nodes());
-    draft_.beams.push_back({name_, draft_.masses.size() - n_nodes, n_nodes, draft_.beam_sections.size(), 0,
-                            damping_times_, first_body_, std::make_shared<const BeamAxis>(axis_)});
+    draft_.beams.push_back(
+        {design_.name, design_.damping_times, first_body_, std::make_shared<const BeamAxis>(axis_)});
     for (int e = 0; e < axis_.elements; ++e) {
       for (const auto& [xi, weight] : gauss_points(axis_.degree)) add_section(e, xi, weight);
     }
-    draft_.beams.back().n_sections = draft_.beam_sections.size() - draft_.beams.back().first_section;
   }
 
   void add_section(int e, double xi, double weight) {
@@ -137,7 +132,7 @@ class BeamBuilder {
     section.width = draft_.quantity(Expression(weight) * stretch);
     set_stiffness(section, (e + xi) / axis_.elements);
     set_unloaded(section, e, values, slopes);
-    draft_.beam_sections.push_back(std::move(section));
+    draft_.beams.back().sections.push_back(std::move(section));
   }
 
   std::vector<Quantity> quantities(const std::vector<Expression>& expressions) {
@@ -156,9 +151,9 @@ class BeamBuilder {
 
   void set_stiffness(BeamSection& section, double s) {
     BeamTable::Stiffness S;
-    for (const auto& [station, part] : section_.shares(s)) {
+    for (const auto& [station, part] : design_.sections.shares(s)) {
       for (std::size_t i = 0; i < section_entries; ++i)
-        S[i] = S[i] + Expression(part) * section_.stiffness[station][i];
+        S[i] = S[i] + Expression(part) * design_.sections.stiffness[station][i];
     }
     for (std::size_t i = 0; i < section_entries; ++i) {
       section.stiffness[i] = draft_.quantity_unless_zero(S[i]);
@@ -208,9 +203,7 @@ class BeamBuilder {
 
   Draft& draft_;
   TableReader& table_;
-  const std::string& name_;
-  const BeamTable& section_;
-  const std::vector<Expression>& damping_times_;
+  const BeamDesign& design_;
   BeamAxis axis_;
   std::size_t first_body_ = 0;
 };
@@ -218,14 +211,9 @@ class BeamBuilder {
 }  // namespace
 
 std::string read_beam_name(Draft& draft, TableReader& table) {
-  const std::string name = table.text("name");
-  if (name.empty()) table.fail("name", "must not be empty");
-  const auto is_beam = [&](const BeamDraft& beam) { return beam.name == name; };
-  const auto& taken = draft.mass_names;
-  if (std::find(taken.begin(), taken.end(), name) != taken.end() ||
-      std::any_of(draft.beams.begin(), draft.beams.end(), is_beam))
-    table.fail("name", "another beam, body or point is called '" + name + "' already");
-  return name;
+  std::vector<std::string> taken = names_of(draft.beams);
+  taken.insert(taken.end(), draft.mass_names.begin(), draft.mass_names.end());
+  return read_name(table, "beam, body or point", taken);
 }
 
 void read_elements(TableReader& table, BeamDesign& design) {
@@ -254,7 +242,7 @@ ExpressionVector position_of(const Draft& draft, const Place& place) {
 }
 
 void add_beam(Draft& draft, TableReader& table, const BeamDesign& design) {
-  BeamBuilder(draft, table, design).build(design.ends);
+  BeamBuilder(draft, table, design).build();
 }
 
 }  // namespace eigentrail

@@ -35,7 +35,7 @@ std::array<FieldHelp, 2> element_fields();
 ExpressionVector position_of(const Draft& draft, const Place& place);
 
 /// Adds the nodes to the bodies, with their masses and the constraints that hold the ends, and the elements
-/// to Draft::beam_sections. `table` is named in messages.
+/// to BeamDraft::sections. `table` is named in messages.
 void add_beam(Draft& draft, TableReader& table, const BeamDesign& design);
 
 }  // namespace eigentrail

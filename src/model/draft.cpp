@@ -8,6 +8,26 @@
 
 namespace eigentrail {
 
+std::size_t index_of(const std::string& name, const std::vector<std::string>& known, const TableReader& table,
+                     const std::string& key, const std::string& what) {
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+  table.fail(key, "no " + what + " is called '" + name + "'; " + suggestion(name, known));
+}
+
+void check_is_new(const TableReader& table, const std::string& what, const std::string& name,
+                  const std::vector<std::string>& taken) {
+  if (std::find(taken.begin(), taken.end(), name) != taken.end())
+    table.fail("name", "another " + what + " is called '" + name + "' already");
+}
+
+std::string read_name(TableReader& table, const std::string& what, const std::vector<std::string>& taken) {
+  std::string name = table.text("name");
+  if (name.empty()) table.fail("name", "must not be empty");
+  check_is_new(table, what, name, taken);
+  return name;
+}
+
 std::string numbered(std::string_view name, std::size_t index) {
   return std::string(name) + " " + std::to_string(index + 1);
 }
@@ -148,12 +168,8 @@ Place Draft::read_moving_place(TableReader& table, const std::string& key, Carri
 
 int Draft::read_body(TableReader& table, const std::string& key) {
   const std::string name = table.text(key);
-  std::vector<std::string> names;
-  for (const BodyDraft& body : bodies) names.push_back(body.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<int>(found - names.begin());
-  table.fail(key, names.empty() ? "no body is called '" + name + "': the scene has no [[body]]"
-                                : "no body is called '" + name + "'; " + suggestion(name, names));
+  if (bodies.empty()) table.fail(key, "no body is called '" + name + "': the scene has no [[body]]");
+  return static_cast<int>(index_of(name, names_of(bodies), table, key, "body"));
 }
 
 ExpressionVector Draft::read_direction(TableReader& table, const std::string& key, Carrier& carrier) {
@@ -257,10 +273,9 @@ void Draft::check_range(const TableReader& reader, const std::string& key, const
 void Draft::check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
                         Range range) const {
   for (const Expression& e : vector) check_range(reader, key, e, Range::any);
-  for (std::size_t i = 0; range != Range::any && i < request.check_at.size(); ++i) {
-    if (vector_at(vector, i).norm() > 0.0) continue;
-    reader.fail(key, "must not be the zero vector; it is" + where_on_trace(i));
-  }
+  if (range == Range::any) return;
+  require(reader, key, "must not be the zero vector; it is",
+          [&](std::size_t i) { return vector_at(vector, i).norm() > 0.0; });
 }
 
 Eigen::Vector3d Draft::vector_at(const ExpressionVector& v, std::size_t i) const {

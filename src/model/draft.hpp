@@ -24,18 +24,14 @@ struct BodyDraft {
 
 struct BeamAxis;
 
-/// A beam: its nodes, with indices of Draft::masses, and its quadrature points in the order of the elements,
-/// with those of Draft::beam_sections.
+/// A beam: its nodes, which are bodies, and its quadrature points in the order of the elements.
 struct BeamDraft {
   std::string name;
-  std::size_t first_mass = 0;
-  std::size_t n_nodes = 0;
-  std::size_t first_section = 0;
-  std::size_t n_sections = 0;
   /// Damping of the beam's own: times by strain, s. Empty: none.
   std::vector<Expression> damping_times = {};
   std::size_t first_body = 0;                      ///< its nodes are bodies from this index on
   std::shared_ptr<const BeamAxis> axis = nullptr;  ///< nodes and elements before it is loaded
+  std::vector<BeamSection> sections = {};
 };
 
 /// What a place or direction moves with: a body, a point, or neither (the frame).
@@ -65,7 +61,6 @@ struct Draft {
   std::vector<std::string> points;        ///< points by triple; the bodies follow them
   std::vector<BodyDraft> bodies;
   std::vector<BeamDraft> beams;
-  std::vector<BeamSection> beam_sections;
   std::vector<MassDistribution> masses;  ///< of points and bodies, in the order of mass_names
   std::vector<std::string> mass_names;
   std::vector<Expression> guess;         ///< starting guess, one per coordinate of points and bodies
@@ -158,6 +153,14 @@ struct Draft {
   /// All components must be finite; the length must not be zero unless `range` is Range::any.
   void check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
                    Range range) const;
+  /// Throws InputError about a key, "message where ...", unless holds(i) for all of these points.
+  template <class Holds>
+  void require(const TableReader& reader, const std::string& key, const std::string& message,
+               Holds holds) const {
+    for (std::size_t i = 0; i < check_at.size(); ++i) {
+      if (!holds(i)) reader.fail(key, message + where_on_trace(i));
+    }
+  }
   Eigen::Vector3d vector_at(const ExpressionVector& v, std::size_t i) const;
   static std::string where_on_trace(std::size_t i);
 
@@ -166,15 +169,24 @@ struct Draft {
   Place named_place(TableReader& table, const std::string& key, const std::string& name, Carrier* carrier);
 };
 
-/// Refuses the name of a table that one of the others has.
 template <class Named>
-void check_is_new(const TableReader& table, std::string_view kind, const std::string& name,
-                  const std::vector<Named>& others) {
-  for (const Named& other : others) {
-    if (other.name == name)
-      table.fail("name", "another [[" + std::string(kind) + "]] is called '" + name + "' already");
-  }
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
 }
+
+/// Index of a name among those that are known. Throws InputError about the key of a table if there is none:
+/// no `what` is called so.
+std::size_t index_of(const std::string& name, const std::vector<std::string>& known, const TableReader& table,
+                     const std::string& key, const std::string& what);
+
+/// Refuses the name of a table if it is taken: another `what` is called so.
+void check_is_new(const TableReader& table, const std::string& what, const std::string& name,
+                  const std::vector<std::string>& taken);
+
+/// The key `name` of a table, which must not be empty or taken.
+std::string read_name(TableReader& table, const std::string& what, const std::vector<std::string>& taken);
 
 /// A name for the table with index i of a kind: "spring 2" for i = 1.
 std::string numbered(std::string_view name, std::size_t index);

@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
+#include "model/add_element.hpp"
 #include "model/coefficient_table.hpp"
-#include "model/span_line.hpp"
 #include "model/station_columns.hpp"
 #include "model/strips.hpp"
 
@@ -65,28 +65,14 @@ class StripReader {
       points_ = points_of_beam(draft_, *beam, read_strip_count(table_, points_on_element), extent_);
       return;
     }
-    std::vector<std::string> names;
-    for (const BeamDraft& b : draft_.beams) names.push_back(b.name);
-    for (const BodyDraft& b : draft_.bodies) names.push_back(b.name);
-    const auto body = std::find_if(draft_.bodies.begin(), draft_.bodies.end(),
-                                   [&](const BodyDraft& b) { return b.name == on; });
-    if (body == draft_.bodies.end())
-      table_.fail("on", "no beam, blade or body is called '" + on + "'; " + suggestion(on, names));
-    triple_ = body->triple;
-    const BodyLine line = read_body_line(static_cast<int>(body - draft_.bodies.begin()));
+    std::vector<std::string> names = names_of(draft_.beams);
+    const std::vector<std::string> bodies = names_of(draft_.bodies);
+    names.insert(names.end(), bodies.begin(), bodies.end());
+    const std::size_t body = index_of(on, names, table_, "on", "beam, blade or body") - draft_.beams.size();
+    triple_ = draft_.bodies[body].triple;
+    const BodyLine line =
+        read_body_line(draft_, table_, static_cast<int>(body), std::array{unit_vector(1), unit_vector(2)});
     points_ = points_of_body(draft_, line, read_strip_count(table_, points_on_body), extent_);
-  }
-
-  BodyLine read_body_line(int body) {
-    BodyLine line{
-        body,
-        draft_.read_vector(table_, "root", "m", Range::any),
-        draft_.read_vector(table_, "tip", "m", Range::any),
-        normalized(draft_.read_vector(table_, "leading", any_unit, Range::positive, unit_vector(1))),
-        {}};
-    draft_.check_range(table_, "tip", line.tip - line.root, Range::positive);
-    line.z = read_lift(draft_, table_, line.y, unit_vector(2));
-    return line;
   }
 
   double constant(const std::string& key, const Expression& e, const std::string& expected) {
@@ -130,36 +116,29 @@ class StripReader {
 
   void read_inflow_of(Strip& common) {
     const std::string name = table_.text("inflow");
-    std::vector<std::string> names;
-    for (InflowDraft& inflow : inflows_) {
-      names.push_back(inflow.name);
-      if (inflow.name != name) continue;
-      common.inflow = inflow.element.velocity;
-      common.disc = inflow.disc;
-      if (!inflow.annular) return;
-      if (inflow.first_triple >= 0 && inflow.first_triple != triple_)
-        table_.fail("inflow", "'" + name +
-                                  "' is annular and has the strips of one blade, on one beam or body, which "
-                                  "stand for those of all; these are on another one");
-      inflow.first_triple = triple_;
-      annular_ = &inflow;
-      return;
-    }
     if (draft_.is_left_out(Inflow::name)) return;
-    table_.fail("inflow", "no [[inflow]] is called '" + name + "'; " + suggestion(name, names));
+    InflowDraft& inflow = inflows_[index_of(name, names_of(inflows_), table_, "inflow", "[[inflow]]")];
+    common.inflow = inflow.element.velocity;
+    common.disc = inflow.disc;
+    if (!inflow.annular) return;
+    if (inflow.first_triple >= 0 && inflow.first_triple != triple_)
+      table_.fail("inflow", "'" + name +
+                                "' is annular and has the strips of one blade, on one beam or body, which "
+                                "stand for those of all; these are on another one");
+    inflow.first_triple = triple_;
+    annular_ = &inflow;
   }
 
   /// A wind across the axis of a rotating frame turns in the frame, and there is no steady state.
   void check_wind(const ExpressionVector& wind, const ExpressionVector& rotation) {
-    for (std::size_t i = 0; i < draft_.request.check_at.size(); ++i) {
-      const Eigen::Vector3d u = draft_.vector_at(wind, i);
-      const Eigen::Vector3d w = draft_.vector_at(rotation, i);
-      if (w.cross(u).norm() > 1e-12 * w.norm() * u.norm())
-        table_.fail("wind",
-                    "must be parallel to [frame] angular_velocity, or it turns in the frame and there is "
-                    "no steady state; it is not" +
-                        Draft::where_on_trace(i));
-    }
+    draft_.require(table_, "wind",
+                   "must be parallel to [frame] angular_velocity, or it turns in the frame and there is no "
+                   "steady state; it is not",
+                   [&](std::size_t i) {
+                     const Eigen::Vector3d u = draft_.vector_at(wind, i);
+                     const Eigen::Vector3d w = draft_.vector_at(rotation, i);
+                     return w.cross(u).norm() <= 1e-12 * w.norm() * u.norm();
+                   });
   }
 
   std::vector<Strip> make_strips(const Strip& common) {
@@ -211,16 +190,24 @@ class StripReader {
   std::array<double, 2> extent_ = {0.0, 1.0};
 };
 
+/// The strips of a [[strips]] table.
+struct StripTable {
+  std::string name;
+  std::vector<Strip> strips;
+
+  /// Name of the strip with index i.
+  std::string label(std::size_t i) const { return name + ", strip " + std::to_string(i + 1); }
+};
+
 /// Calls add(table, strips) for every table of a kind, with the tables of strips that it is for.
 void for_each_of_strips(Draft& draft, std::string_view kind, const std::vector<StripTable>& all,
                         const std::function<void(TableReader&, const StripTable&)>& add) {
-  std::vector<std::string> names, done;
-  for (const StripTable& strips : all) names.push_back(strips.name);
+  const std::vector<std::string> names = names_of(all);
+  std::vector<std::string> done;
   draft.for_each_table(kind, [&](TableReader& table, std::size_t) {
     const std::string name = table.has("strips") ? table.text("strips") : "";
     if (names.empty()) table.fail("strips", "the scene has no [[strips]]");
-    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-      table.fail("strips", "no [[strips]] is called '" + name + "'; " + suggestion(name, names));
+    if (!name.empty()) index_of(name, names, table, "strips", "[[strips]]");
     for (const StripTable& strips : all) {
       if (!name.empty() && strips.name != name) continue;
       if (std::find(done.begin(), done.end(), strips.name) != done.end())
@@ -247,22 +234,19 @@ std::vector<std::array<Quantity, 2>> read_pairs(Draft& draft, TableReader& table
   return pairs;
 }
 
-}  // namespace
-
 std::vector<StripTable> read_strip_tables(Draft& draft, const std::optional<ExpressionVector>& rotation,
                                           std::vector<InflowDraft>& inflows) {
   std::vector<StripTable> result;
   draft.for_each_table(Strip::name, [&](TableReader& table, std::size_t i) {
     StripTable strips{label_of(table, Strip::name, i), {}};
-    check_is_new(table, Strip::name, strips.name, result);
+    check_is_new(table, "[[strips]]", strips.name, names_of(result));
     strips.strips = StripReader(draft, table, inflows).read(rotation);
     result.push_back(std::move(strips));
   });
   return result;
 }
 
-std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft, const std::vector<StripTable>& all) {
-  std::vector<std::pair<LiftLag, std::string>> result;
+void read_lift_lag(Draft& draft, const std::vector<StripTable>& all) {
   for_each_of_strips(draft, LiftLag::name, all, [&](TableReader& table, const StripTable& strips) {
     const auto shares = read_pairs(draft, table, "A", Range::any, {0.165, 0.335});
     const auto rates = read_pairs(draft, table, "b", Range::positive, {0.0455, 0.3});
@@ -271,25 +255,38 @@ std::vector<std::pair<LiftLag, std::string>> read_lift_lag(Draft& draft, const s
     if (shares.size() > 1 && strips.strips.front().polar)
       table.fail("A", "strips with a polar take two exponentials");
     for (std::size_t i = 0; i < strips.strips.size(); ++i) {
-      for (std::size_t pair = 0; pair < shares.size(); ++pair) {
-        result.emplace_back(LiftLag{strips.strips[i], shares[pair], rates[pair]},
-                            strips.label(i) + (pair == 0 ? "" : ", more"));
-      }
+      for (std::size_t pair = 0; pair < shares.size(); ++pair)
+        add_element(draft, LiftLag{strips.strips[i], shares[pair], rates[pair]},
+                    strips.label(i) + (pair == 0 ? "" : ", more"));
     }
   });
-  return result;
 }
 
-std::vector<std::pair<ApparentMass, std::string>> read_apparent_mass(Draft& draft,
-                                                                     const std::vector<StripTable>& all) {
-  std::vector<std::pair<ApparentMass, std::string>> result;
+void read_apparent_mass(Draft& draft, const std::vector<StripTable>& all) {
   for_each_of_strips(draft, ApparentMass::name, all, [&](TableReader&, const StripTable& strips) {
     for (std::size_t i = 0; i < strips.strips.size(); ++i) {
-      ApparentMass& mass = result.emplace_back(ApparentMass{strips.strips[i]}, strips.label(i)).first;
+      ApparentMass mass{strips.strips[i]};
       mass.inflow = {};  // small beside the speed of the section
+      add_element(draft, mass, strips.label(i));
     }
   });
-  return result;
+}
+
+}  // namespace
+
+void read_air(Draft& draft, const std::optional<ExpressionVector>& rotation,
+              std::vector<InflowDraft>& inflows) {
+  const std::vector<StripTable> all = read_strip_tables(draft, rotation, inflows);
+  for (const InflowDraft& inflow : inflows) {
+    if (!inflow.annular) add_element(draft, inflow.element, inflow.name);
+    for (std::size_t i = 0; i < inflow.annuli.size(); ++i)
+      add_element(draft, inflow.annuli[i], inflow.label(i));
+  }
+  for (const StripTable& table : all) {
+    for (std::size_t i = 0; i < table.strips.size(); ++i) add_element(draft, table.strips[i], table.label(i));
+  }
+  read_lift_lag(draft, all);
+  read_apparent_mass(draft, all);
 }
 
 std::vector<FieldHelp> strips_fields() {

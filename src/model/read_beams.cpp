@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "eigentrail/core/text.hpp"
+#include "model/add_element.hpp"
 #include "model/beam_builder.hpp"
 
 namespace eigentrail {
@@ -51,10 +52,9 @@ class BeamReader {
   }
 
   void check_apart(const std::array<BeamEnd, 2>& ends) {
-    for (std::size_t i = 0; i < draft_.check_at.size(); ++i) {
-      if (draft_.vector_at(ends[1].position - ends[0].position, i).norm() > 0.0) continue;
-      table_.fail("to", "must be apart from `from`; both are at the same place" + Draft::where_on_trace(i));
-    }
+    draft_.require(table_, "to", "must be apart from `from`; both are at the same place", [&](std::size_t i) {
+      return draft_.vector_at(ends[1].position - ends[0].position, i).norm() > 0.0;
+    });
   }
 
   void check_across(const std::array<BeamEnd, 2>& ends, const ExpressionVector& y) {
@@ -76,17 +76,14 @@ std::string section_label(const BeamDraft& beam, std::size_t i) {
   return beam.name + ", quadrature point " + std::to_string(i + 1);
 }
 
-using LabelledDamping = std::vector<std::pair<BeamDamping, std::string>>;
-
 /// Damping of all quadrature points of a beam by one time, or by one for each strain.
-void add_damping(Draft& draft, const BeamDraft& beam, const std::vector<Expression>& times,
-                 LabelledDamping& result) {
+void add_damping(Draft& draft, const BeamDraft& beam, const std::vector<Expression>& times) {
   BeamDamping damping;
   damping.time = draft.quantity(times.size() == 1 ? times[0] : Expression(1.0));
   for (std::size_t i = 0; times.size() == 6 && i < 6; ++i) damping.roots[i] = draft.quantity(sqrt(times[i]));
-  for (std::size_t k = 0; k < beam.n_sections; ++k) {
-    static_cast<BeamPoint&>(damping) = draft.beam_sections[beam.first_section + k];
-    result.emplace_back(damping, section_label(beam, k));
+  for (std::size_t i = 0; i < beam.sections.size(); ++i) {
+    static_cast<BeamPoint&>(damping) = beam.sections[i];
+    add_element(draft, damping, section_label(beam, i));
   }
 }
 
@@ -110,36 +107,28 @@ void read_beams(Draft& draft) {
   });
 }
 
-std::vector<std::pair<BeamSection, std::string>> labelled_sections(const Draft& draft) {
-  std::vector<std::pair<BeamSection, std::string>> result;
+void add_beam_sections(Draft& draft) {
   for (const BeamDraft& beam : draft.beams) {
-    for (std::size_t i = 0; i < beam.n_sections; ++i)
-      result.emplace_back(draft.beam_sections[beam.first_section + i], section_label(beam, i));
+    for (std::size_t i = 0; i < beam.sections.size(); ++i)
+      add_element(draft, beam.sections[i], section_label(beam, i));
   }
-  return result;
 }
 
-std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft) {
-  LabelledDamping result;
+void read_beam_damping(Draft& draft) {
   for (const BeamDraft& beam : draft.beams) {
-    if (!beam.damping_times.empty()) add_damping(draft, beam, beam.damping_times, result);
+    if (!beam.damping_times.empty()) add_damping(draft, beam, beam.damping_times);
   }
   draft.for_each_table(BeamDamping::name, [&](TableReader& table, std::size_t) {
-    const std::string name = table.text("beam");
-    std::vector<std::string> names;
-    for (const BeamDraft& beam : draft.beams) names.push_back(beam.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      table.fail("beam", "no beam is called '" + name + "'; " + suggestion(name, names));
+    const BeamDraft& beam =
+        draft.beams[index_of(table.text("beam"), names_of(draft.beams), table, "beam", "beam")];
     const std::vector<Expression> times = table.list("time", "s");
     if (times.size() != 1 && times.size() != 6)
       table.fail("time",
                  "expected one number or six, one for each strain; found " + std::to_string(times.size()));
     for (const Expression& time : times) check_time(draft, table, "time", time, times.size() == 6);
     table.finish();
-    add_damping(draft, draft.beams[static_cast<std::size_t>(found - names.begin())], times, result);
+    add_damping(draft, beam, times);
   });
-  return result;
 }
 
 std::vector<FieldHelp> beam_fields() {

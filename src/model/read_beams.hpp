@@ -6,15 +6,15 @@
 namespace eigentrail {
 
 /// Adds the nodes of all [[beam]] tables to the bodies, with their masses and the constraints that hold the
-/// ends, and the elements to Draft::beam_sections. Bodies must have been read.
+/// ends, and the quadrature points to the beams. Bodies must have been read.
 void read_beams(Draft& draft);
 
-/// The damping of all beams at their quadrature points, with their labels: of [[beam_damping]] tables, and
-/// that of their own.
-std::vector<std::pair<BeamDamping, std::string>> read_beam_damping(Draft& draft);
+/// Adds the elements of all beams.
+void add_beam_sections(Draft& draft);
 
-/// The elements of all beams, with their labels.
-std::vector<std::pair<BeamSection, std::string>> labelled_sections(const Draft& draft);
+/// Adds the damping of all beams at their quadrature points: that of their own, and of [[beam_damping]]
+/// tables.
+void read_beam_damping(Draft& draft);
 
 /// Times must not be negative. One of several, which enter by their roots, must not become zero on the trace.
 void check_time(Draft& draft, const TableReader& table, const std::string& key, const Expression& time,

@@ -37,10 +37,9 @@ class BladeReader {
     axis_ = normalized(direction("axis", 2));
     const ExpressionVector along = direction("along", 0);
     const ExpressionVector across = cross(axis_, along);
-    for (std::size_t i = 0; i < draft_.check_at.size(); ++i) {
-      if (draft_.vector_at(across, i).norm() > 1e-9 * draft_.vector_at(along, i).norm()) continue;
-      table_.fail("along", "must not be parallel to axis; it is" + Draft::where_on_trace(i));
-    }
+    draft_.require(table_, "along", "must not be parallel to axis; it is", [&](std::size_t i) {
+      return draft_.vector_at(across, i).norm() > 1e-9 * draft_.vector_at(along, i).norm();
+    });
     tangent_ = normalized(across);
     radial_ = cross(tangent_, axis_);
   }

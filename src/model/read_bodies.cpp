@@ -59,14 +59,13 @@ ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector
   for (std::size_t i = 0; i < 2; ++i) {
     axes[i] = draft.read_vector(table, keys[given[i]], any_unit, Range::positive);
   }
-  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
-    const Eigen::Vector3d a = draft.vector_at(axes[0], i);
-    const Eigen::Vector3d b = draft.vector_at(axes[1], i);
-    // Sine of the angle between the axes.
-    if (a.cross(b).norm() > 1e-9 * a.norm() * b.norm()) continue;
-    table.fail(keys[given[1]],
-               "must not be parallel to " + keys[given[0]] + "; it is" + Draft::where_on_trace(i));
-  }
+  draft.require(table, keys[given[1]], "must not be parallel to " + keys[given[0]] + "; it is",
+                [&](std::size_t i) {
+                  const Eigen::Vector3d a = draft.vector_at(axes[0], i);
+                  const Eigen::Vector3d b = draft.vector_at(axes[1], i);
+                  // Sine of the angle between the axes.
+                  return a.cross(b).norm() > 1e-9 * a.norm() * b.norm();
+                });
   const ExpressionVector first = normalized(axes[0]);
   const ExpressionVector second = normalized(axes[1] - dot(axes[1], first) * first);
   const std::size_t last = 3 - given[0] - given[1];
@@ -198,12 +197,7 @@ void add_body(Draft& draft, BodyDraft body, const BodyMoments& moments) {
 void read_bodies(Draft& draft) {
   draft.for_each_table("body", [&](TableReader& table, std::size_t) {
     BodyDraft body;
-    body.name = table.text("name");
-    if (body.name.empty()) table.fail("name", "must not be empty");
-    const auto& taken = draft.mass_names;
-    if (std::find(taken.begin(), taken.end(), body.name) != taken.end()) {
-      table.fail("name", "another body or point is called '" + body.name + "' already");
-    }
+    body.name = read_name(table, "body or point", draft.mass_names);
     const Expression mass = draft.read_number(table, "mass", "kg", Range::non_negative);
     const ExpressionVector centre = draft.read_vector(table, "centre", "m", Range::any, ExpressionVector{});
     const ExpressionMatrix J = read_inertia(draft, table);

@@ -11,120 +11,106 @@ namespace {
 using Rows = std::vector<ConstraintRow>;
 using Angles = std::vector<HingeAngle>;
 
-/// A joint: the places that it connects, and what they move with.
-struct Joint {
-  Carrier from_carrier, to_carrier;
-  Place from, to;
-};
-
-Joint read_sides(Draft& draft, TableReader& table, bool needs_axes) {
-  Joint joint;
-  joint.from = draft.read_place(table, "from", &joint.from_carrier);
-  joint.to = draft.read_place(table, "to", &joint.to_carrier);
-  const auto check = [&](const Carrier& carrier, const char* key) {
-    if (needs_axes && carrier.point >= 0)
-      table.fail(key, "a point has no orientation; this joint needs a body or a fixed place");
-  };
-  check(joint.from_carrier, "from");
-  check(joint.to_carrier, "to");
-  const bool same_body = joint.from_carrier.body >= 0 && joint.from_carrier.body == joint.to_carrier.body;
-  const bool same_point = joint.from_carrier.point >= 0 && joint.from_carrier.point == joint.to_carrier.point;
-  if (same_body || same_point) table.fail("to", "joins a body with itself; 'from' and 'to' must differ");
-  if (joint.from_carrier.is_frame() && joint.to_carrier.is_frame())
-    table.fail("to", "joins no moving point or body; name one in 'from' or 'to'");
-  return joint;
-}
-
 /// A direction that is fixed on both sides of a joint and the same at the starting guess.
 struct SharedDirection {
   ExpressionVector from, to;  ///< components in the axes of either side
 };
-
-SharedDirection shared(const Draft& draft, const Joint& joint, const ExpressionVector& from) {
-  return {from, draft.in_axes_of(joint.to_carrier, draft.in_frame(joint.from_carrier, from))};
-}
 
 /// An axis and two directions normal to it, right-handed, on both sides of a joint.
 struct JointAxes {
   SharedDirection axis, first, second;
 };
 
-JointAxes read_axes(Draft& draft, TableReader& table, const Joint& joint, const std::string& key) {
-  Carrier carrier;
-  const ExpressionVector along = draft.read_direction(table, key, carrier);
-  if (!carrier.is_frame() && carrier.body != joint.from_carrier.body && carrier.body != joint.to_carrier.body)
-    table.fail(key, "must be a direction of one of the joined bodies, or [x, y, z] in the frame");
-  const ExpressionVector in_frame = draft.in_frame(carrier, along);
-  const ExpressionVector axis = draft.in_axes_of(joint.from_carrier, in_frame);
-  // Any direction that is not close to the axis serves, as long as the choice is the same along the whole
-  // trace.
-  Eigen::Index least = 0;
-  draft.vector_at(axis, 0).cwiseAbs().minCoeff(&least);
-  const ExpressionVector first = normalized(cross(axis, unit_vector(static_cast<std::size_t>(least))));
-  JointAxes axes{shared(draft, joint, axis), shared(draft, joint, first),
-                 shared(draft, joint, cross(axis, first))};
-  // If the scene gives the axis on the second body, its components there are used exactly.
-  if (carrier.body >= 0 && carrier.body == joint.to_carrier.body) axes.axis.to = along;
-  return axes;
-}
-
-class RowBuilder {
+/// Reads the places that a joint connects and its axes, and collects its rows.
+class JointReader {
  public:
-  RowBuilder(Draft& draft, const Joint& joint) : draft_(draft), joint_(joint) {}
+  /// `needs_axes`: whether both sides must have an orientation.
+  JointReader(Draft& draft, TableReader& table, bool needs_axes) : draft_(draft), table_(table) {
+    from = draft.read_place(table, "from", &from_carrier);
+    to = draft.read_place(table, "to", &to_carrier);
+    if (needs_axes) {
+      check_has_axes("from", from_carrier, "this joint");
+      check_has_axes("to", to_carrier, "this joint");
+    }
+    const bool same_body = from_carrier.body >= 0 && from_carrier.body == to_carrier.body;
+    const bool same_point = from_carrier.point >= 0 && from_carrier.point == to_carrier.point;
+    if (same_body || same_point) table.fail("to", "joins a body with itself; 'from' and 'to' must differ");
+    if (from_carrier.is_frame() && to_carrier.is_frame())
+      table.fail("to", "joins no moving point or body; name one in 'from' or 'to'");
+  }
+
+  Carrier from_carrier, to_carrier;  ///< what the places move with
+  Place from, to;
+  Rows rows;
+
+  void check_has_axes(const char* key, const Carrier& carrier, const std::string& what) const {
+    if (carrier.point >= 0)
+      table_.fail(key, "a point has no orientation; " + what + " needs a body or a fixed place");
+  }
+
+  SharedDirection shared(const ExpressionVector& on_from) const {
+    return {on_from, draft_.in_axes_of(to_carrier, draft_.in_frame(from_carrier, on_from))};
+  }
+
+  JointAxes read_axes(const std::string& key) {
+    Carrier carrier;
+    const ExpressionVector along = draft_.read_direction(table_, key, carrier);
+    if (!carrier.is_frame() && carrier.body != from_carrier.body && carrier.body != to_carrier.body)
+      table_.fail(key, "must be a direction of one of the joined bodies, or [x, y, z] in the frame");
+    const ExpressionVector in_frame = draft_.in_frame(carrier, along);
+    const ExpressionVector axis = draft_.in_axes_of(from_carrier, in_frame);
+    // Any direction that is not close to the axis serves, as long as the choice is the same along the whole
+    // trace.
+    Eigen::Index least = 0;
+    draft_.vector_at(axis, 0).cwiseAbs().minCoeff(&least);
+    const ExpressionVector first = normalized(cross(axis, unit_vector(static_cast<std::size_t>(least))));
+    JointAxes axes{shared(axis), shared(first), shared(cross(axis, first))};
+    // If the scene gives the axis on the second body, its components there are used exactly.
+    if (carrier.body >= 0 && carrier.body == to_carrier.body) axes.axis.to = along;
+    return axes;
+  }
+
+  Place on_from(const ExpressionVector& direction) { return draft_.direction_on(from_carrier, direction); }
+  Place on_to(const ExpressionVector& direction) { return draft_.direction_on(to_carrier, direction); }
+  HingeAngle angle_about(const JointAxes& axes) {
+    return {on_from(axes.axis.from), on_from(axes.first.from), on_to(axes.first.to)};
+  }
 
   /// The places coincide.
   void coincide() {
-    for (int i = 0; i < 3; ++i) rows.push_back({{joint_.to, joint_.from}, {}, i, draft_.quantity(0.0)});
+    for (int i = 0; i < 3; ++i) rows.push_back({{to, from}, {}, i, draft_.quantity(0.0)});
   }
-
   /// A direction of one side is normal to a direction of the other side.
-  void normal(const ExpressionVector& on_from, const ExpressionVector& on_to) {
-    rows.push_back({{draft_.direction_on(joint_.from_carrier, on_from), {}},
-                    Difference{draft_.direction_on(joint_.to_carrier, on_to), {}},
-                    0,
-                    draft_.quantity(0.0)});
+  void normal(const ExpressionVector& of_from, const ExpressionVector& of_to) {
+    const Place first = on_from(of_from);
+    rows.push_back({{first, {}}, Difference{on_to(of_to), {}}, 0, draft_.quantity(0.0)});
   }
-
   /// The distance from -> to, along a direction of the first side.
-  void along(const ExpressionVector& on_from, const Expression& distance = 0.0) {
-    rows.push_back({{draft_.direction_on(joint_.from_carrier, on_from), {}},
-                    Difference{joint_.to, joint_.from},
-                    0,
-                    draft_.quantity(distance)});
+  void along(const ExpressionVector& of_from, const Expression& distance = 0.0) {
+    rows.push_back({{on_from(of_from), {}}, Difference{to, from}, 0, draft_.quantity(distance)});
   }
-
   /// The axes of both sides stay parallel.
   void parallel(const JointAxes& axes) {
     normal(axes.axis.from, axes.first.to);
     normal(axes.axis.from, axes.second.to);
   }
-
   /// The place on the second side stays on the axis of the first side.
   void on_axis(const JointAxes& axes) {
     along(axes.first.from);
     along(axes.second.from);
   }
-
   /// The second side is rotated about the axis by an angle from its orientation in the starting guess.
   void turned_by(const JointAxes& axes, const Expression& angle) {
     normal(cos(angle) * axes.second.from - sin(angle) * axes.first.from, axes.first.to);
   }
 
-  Rows rows;
-
  private:
   Draft& draft_;
-  const Joint& joint_;
+  TableReader& table_;
 };
 
-HingeAngle angle_about(Draft& draft, const Joint& joint, const JointAxes& axes) {
-  return {draft.direction_on(joint.from_carrier, axes.axis.from),
-          draft.direction_on(joint.from_carrier, axes.first.from),
-          draft.direction_on(joint.to_carrier, axes.first.to)};
-}
-
 Rows read_rod(Draft& draft, TableReader& table, Angles&) {
-  const Joint joint = read_sides(draft, table, false);
+  const JointReader joint(draft, table, false);
   const Expression length = draft.read_number(table, "length", "m", Range::positive);
   const Difference d{joint.to, joint.from};
   return {{d, d, 0, draft.quantity(length * length)}};
@@ -149,27 +135,25 @@ Rows read_fixed(Draft& draft, TableReader& table, Angles&) {
 }
 
 Rows read_ball(Draft& draft, TableReader& table, Angles&) {
-  const Joint joint = read_sides(draft, table, false);
-  RowBuilder builder(draft, joint);
-  builder.coincide();
-  return builder.rows;
+  JointReader joint(draft, table, false);
+  joint.coincide();
+  return joint.rows;
 }
 
 Rows read_revolute(Draft& draft, TableReader& table, Angles& angles) {
-  const Joint joint = read_sides(draft, table, true);
-  const JointAxes axes = read_axes(draft, table, joint, "axis");
-  RowBuilder builder(draft, joint);
-  builder.coincide();
-  builder.parallel(axes);
-  if (table.has("angle")) builder.turned_by(axes, draft.read_number(table, "angle", "rad", Range::any));
-  angles.push_back(angle_about(draft, joint, axes));
-  return builder.rows;
+  JointReader joint(draft, table, true);
+  const JointAxes axes = joint.read_axes("axis");
+  joint.coincide();
+  joint.parallel(axes);
+  if (table.has("angle")) joint.turned_by(axes, draft.read_number(table, "angle", "rad", Range::any));
+  angles.push_back(joint.angle_about(axes));
+  return joint.rows;
 }
 
 Rows read_universal(Draft& draft, TableReader& table, Angles& angles) {
-  const Joint joint = read_sides(draft, table, true);
-  const JointAxes axes = read_axes(draft, table, joint, "axis");
-  const JointAxes cross = read_axes(draft, table, joint, "cross_axis");
+  JointReader joint(draft, table, true);
+  const JointAxes axes = joint.read_axes("axis");
+  const JointAxes cross = joint.read_axes("cross_axis");
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
     const double cosine = draft.vector_at(axes.axis.from, i).dot(draft.vector_at(cross.axis.from, i));
     if (std::abs(cosine) > 1e-9) {
@@ -177,68 +161,55 @@ Rows read_universal(Draft& draft, TableReader& table, Angles& angles) {
                                    exact_text(cosine) + Draft::where_on_trace(i));
     }
   }
-  RowBuilder builder(draft, joint);
-  builder.coincide();
-  builder.normal(axes.axis.from, cross.axis.to);
+  joint.coincide();
+  joint.normal(axes.axis.from, cross.axis.to);
   // For each of the two axes, the other axis shows the angle, because it stays normal to the first.
-  const Place first = draft.direction_on(joint.from_carrier, axes.axis.from);
-  const Place second = draft.direction_on(joint.to_carrier, cross.axis.to);
-  angles.push_back({first, draft.direction_on(joint.from_carrier, cross.axis.from), second});
-  angles.push_back({second, first, draft.direction_on(joint.to_carrier, axes.axis.to)});
-  return builder.rows;
+  const Place first = joint.on_from(axes.axis.from);
+  const Place second = joint.on_to(cross.axis.to);
+  angles.push_back({first, joint.on_from(cross.axis.from), second});
+  angles.push_back({second, first, joint.on_to(axes.axis.to)});
+  return joint.rows;
 }
 
 Rows read_cylindrical(Draft& draft, TableReader& table, Angles& angles) {
-  const Joint joint = read_sides(draft, table, true);
-  const JointAxes axes = read_axes(draft, table, joint, "axis");
-  RowBuilder builder(draft, joint);
-  builder.parallel(axes);
-  builder.on_axis(axes);
-  angles.push_back(angle_about(draft, joint, axes));
-  return builder.rows;
+  JointReader joint(draft, table, true);
+  const JointAxes axes = joint.read_axes("axis");
+  joint.parallel(axes);
+  joint.on_axis(axes);
+  angles.push_back(joint.angle_about(axes));
+  return joint.rows;
 }
 
 Rows read_prismatic(Draft& draft, TableReader& table, Angles&) {
-  const Joint joint = read_sides(draft, table, true);
-  const JointAxes axes = read_axes(draft, table, joint, "axis");
-  RowBuilder builder(draft, joint);
-  builder.parallel(axes);
-  builder.turned_by(axes, 0.0);
-  builder.on_axis(axes);
-  if (table.has("length")) builder.along(axes.axis.from, draft.read_number(table, "length", "m", Range::any));
-  return builder.rows;
+  JointReader joint(draft, table, true);
+  const JointAxes axes = joint.read_axes("axis");
+  joint.parallel(axes);
+  joint.turned_by(axes, 0.0);
+  joint.on_axis(axes);
+  if (table.has("length")) joint.along(axes.axis.from, draft.read_number(table, "length", "m", Range::any));
+  return joint.rows;
 }
 
 Rows read_weld(Draft& draft, TableReader& table, Angles&) {
-  const Joint joint = read_sides(draft, table, true);
-  RowBuilder builder(draft, joint);
-  builder.coincide();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const SharedDirection e = shared(draft, joint, unit_vector(i));
-    const SharedDirection next = shared(draft, joint, unit_vector((i + 1) % 3));
-    builder.normal(e.from, next.to);
-  }
-  return builder.rows;
+  JointReader joint(draft, table, true);
+  joint.coincide();
+  for (std::size_t i = 0; i < 3; ++i) joint.normal(unit_vector(i), joint.shared(unit_vector((i + 1) % 3)).to);
+  return joint.rows;
 }
 
 Rows read_point_on_line(Draft& draft, TableReader& table, Angles&) {
-  const Joint joint = read_sides(draft, table, false);
-  if (joint.from_carrier.point >= 0)
-    table.fail("from", "a point has no orientation; the line needs a body or a fixed place");
-  const JointAxes axes = read_axes(draft, table, joint, "axis");
-  RowBuilder builder(draft, joint);
-  builder.on_axis(axes);
-  return builder.rows;
+  JointReader joint(draft, table, false);
+  joint.check_has_axes("from", joint.from_carrier, "the line");
+  joint.on_axis(joint.read_axes("axis"));
+  return joint.rows;
 }
 
 Rows read_point_on_plane(Draft& draft, TableReader& table, Angles&) {
-  const Joint joint = read_sides(draft, table, false);
-  if (joint.from_carrier.point >= 0)
-    table.fail("from", "a point has no orientation; the plane needs a body or a fixed place");
-  const JointAxes axes = read_axes(draft, table, joint, "normal");
-  RowBuilder builder(draft, joint);
-  builder.along(axes.axis.from, draft.read_number(table, "distance", "m", Range::any, 0.0));
-  return builder.rows;
+  JointReader joint(draft, table, false);
+  joint.check_has_axes("from", joint.from_carrier, "the plane");
+  const JointAxes axes = joint.read_axes("normal");
+  joint.along(axes.axis.from, draft.read_number(table, "distance", "m", Range::any, 0.0));
+  return joint.rows;
 }
 
 const FieldHelp from_help{"from", "place", "where it sits on one side"};

@@ -24,13 +24,12 @@ std::array<ExpressionVector, 2> across(const Draft& draft, const ExpressionVecto
 
 void check_axis(const Draft& draft, const TableReader& table, const std::string& key,
                 const ExpressionVector& axis, const ExpressionVector& vector) {
-  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
+  const std::string message = key == "axis" ? "[frame] angular_velocity must be parallel to it"
+                                            : "must be parallel to axis: only axial flow has a steady inflow";
+  draft.require(table, key, message + "; it is not", [&](std::size_t i) {
     const Eigen::Vector3d v = draft.vector_at(vector, i);
-    if (draft.vector_at(axis, i).cross(v).norm() > 1e-9 * v.norm())
-      table.fail(key, (key == "axis" ? "[frame] angular_velocity must be parallel to it"
-                                     : "must be parallel to axis: only axial flow has a steady inflow") +
-                          std::string("; it is not") + Draft::where_on_trace(i));
-  }
+    return draft.vector_at(axis, i).cross(v).norm() <= 1e-9 * v.norm();
+  });
 }
 
 /// Whether the axis of an inflow is that of the [rotor], 1, or opposite to it, -1. Its centre must be on that
@@ -38,13 +37,10 @@ void check_axis(const Draft& draft, const TableReader& table, const std::string&
 int sense_of_rotor(const Draft& draft, const TableReader& table, const ExpressionVector& axis,
                    const ExpressionVector& centre) {
   const int sense = draft.vector_at(axis, 0)[2] > 0.0 ? 1 : -1;
-  for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
-    if (draft.vector_at(axis, i)[2] * sense < 0.0)
-      table.fail("axis", "with [rotor] it must not change its sense; it does" + Draft::where_on_trace(i));
-    if (draft.vector_at(centre, i).head<2>().norm() > 1e-12)
-      table.fail("centre", "with [rotor] expected [0, 0, z], on the axis of rotation; it is not" +
-                               Draft::where_on_trace(i));
-  }
+  draft.require(table, "axis", "with [rotor] it must not change its sense; it does",
+                [&](std::size_t i) { return draft.vector_at(axis, i)[2] * sense >= 0.0; });
+  draft.require(table, "centre", "with [rotor] expected [0, 0, z], on the axis of rotation; it is not",
+                [&](std::size_t i) { return draft.vector_at(centre, i).head<2>().norm() <= 1e-12; });
   return sense;
 }
 
@@ -124,7 +120,7 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
   if (draft.is_left_out(Inflow::name)) return result;
   draft.for_each_table(Inflow::name, [&](TableReader& table, std::size_t) {
     InflowDraft inflow = read_disc(draft, table, rotation.value_or(ExpressionVector{}));
-    check_is_new(table, Inflow::name, inflow.name, result);
+    check_is_new(table, "[[inflow]]", inflow.name, names_of(result));
     result.push_back(std::move(inflow));
     if (!result.back().annular) draft.inflow_names.push_back(result.back().name);
   });

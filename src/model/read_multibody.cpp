@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/draft.hpp"
+#include "model/add_element.hpp"
+#include "model/beam_axis.hpp"
 #include "model/multiblade/read_bladed_rotor.hpp"
 #include "model/multiblade/rotor_parts.hpp"
 #include "model/multibody.hpp"
@@ -43,21 +44,18 @@ class FieldReader {
   void joint(std::string_view key_view, HingeAngle& angle, std::string_view) {
     const std::string key(key_view);
     const std::string name = table_.text(key);
-    const auto found = draft_.joint_angles.find(name);
-    if (found == draft_.joint_angles.end()) {
-      std::vector<std::string> names;
-      for (const auto& [label, angles] : draft_.joint_angles) names.push_back(label);
-      table_.fail(key, "no joint with an angle (revolute, universal, cylindrical) is called '" + name +
-                           "'; " + suggestion(name, names));
-    }
+    std::vector<std::string> names;
+    for (const auto& [label, angles] : draft_.joint_angles) names.push_back(label);
+    index_of(name, names, table_, key, "joint with an angle (revolute, universal, cylindrical)");
+    const std::vector<HingeAngle>& angles = draft_.joint_angles.at(name);
     std::size_t which = 0;
-    if (found->second.size() > 1) {
+    if (angles.size() > 1) {
       const std::string about = table_.text("about");
       if (about != "axis" && about != "cross_axis")
         table_.fail("about", "expected \"axis\" or \"cross_axis\", found \"" + about + "\"");
       which = about == "axis" ? 0 : 1;
     }
-    angle = found->second[which];
+    angle = angles[which];
   }
 
   void quantity(const QuantityField& field, Quantity& quantity) {
@@ -90,85 +88,10 @@ class FieldReader {
   TableReader& table_;
 };
 
-/// Collects the moving vectors of an element, each once, and stores their indices in Place::argument.
-class ArgumentCollector {
- public:
-  explicit ArgumentCollector(std::vector<Place>& arguments) : arguments_(arguments) {}
-
-  void place(std::string_view, Place& place, std::string_view = {}) {
-    if (!place.moves()) return;
-    const auto same = [&](const Place& other) {
-      return std::equal(place.terms.begin(), place.terms.end(), other.terms.begin(), other.terms.end(),
-                        [](const Term& a, const Term& b) {
-                          return a.triple == b.triple && a.weight.slot == b.weight.slot;
-                        });
-    };
-    const auto known = std::find_if(arguments_.begin(), arguments_.end(), same);
-    place.argument = static_cast<int>(known - arguments_.begin());
-    if (known == arguments_.end()) arguments_.push_back(place);
-  }
-  void point(std::string_view key, Place& point, std::string_view) { place(key, point); }
-  void direction(std::string_view key, Place& direction, std::string_view) { place(key, direction); }
-  void body(std::string_view key, std::array<Place, 3>& directors, std::string_view) {
-    for (Place& director : directors) place(key, director);
-  }
-  void joint(std::string_view key, HingeAngle& angle, std::string_view) {
-    for (Place* direction : {&angle.axis, &angle.from, &angle.to}) place(key, *direction);
-  }
-  void quantity(const QuantityField&, const Quantity&) {}
-  void vector(const QuantityField&, const std::array<Quantity, 3>&) {}
-  void matrix(const QuantityField&, const std::array<Quantity, 4>&) {}
-  template <class... Numbers>
-  void numbers(const Numbers&...) {}
-
- private:
-  std::vector<Place>& arguments_;
-};
-
-/// Adds the states of an element to the coordinates.
-template <class Element>
-void add_states(Draft& draft, Placed<Element>& placed) {
-  if constexpr (number_of_states<Element>() > 0) {
-    placed.first_state = static_cast<int>(draft.state_names.size());
-    for (const OwnState& state : Element::states) {
-      draft.state_names.push_back(placed.label + "." + std::string(state.name));
-      draft.state_units.emplace_back(state.unit);
-    }
-  }
-}
-
-/// Adds an element unless its effect is switched off.
-template <class Element>
-void add_element(Draft& draft, Element element, std::string label) {
-  if (draft.is_left_out(Element::name)) return;
-  Placed<Element> placed{
-      std::move(element), std::move(label), {}, draft.strength(std::string(Element::name))};
-  ArgumentCollector collector(placed.arguments);
-  Element::fields(placed.element, collector);
-  add_states(draft, placed);
-  std::get<std::vector<Placed<Element>>>(draft.data.elements.lists).push_back(std::move(placed));
-}
-
-/// Adds the strips of beams, blades and bodies in moving air.
-void add_air(Draft& draft, const std::optional<ExpressionVector>& rotation,
-             std::vector<InflowDraft>& inflows) {
-  const std::vector<StripTable> all = read_strip_tables(draft, rotation, inflows);
-  for (const InflowDraft& inflow : inflows) {
-    if (!inflow.annular) add_element(draft, inflow.element, inflow.name);
-    for (std::size_t i = 0; i < inflow.annuli.size(); ++i)
-      add_element(draft, inflow.annuli[i], inflow.label(i));
-  }
-  for (const StripTable& table : all) {
-    for (std::size_t i = 0; i < table.strips.size(); ++i) add_element(draft, table.strips[i], table.label(i));
-  }
-  for (auto& [lag, label] : read_lift_lag(draft, all)) add_element(draft, lag, label);
-  for (auto& [mass, label] : read_apparent_mass(draft, all)) add_element(draft, mass, label);
-}
-
 /// The states of an element are coordinates, which the name of the element must tell apart.
 template <class Element>
 void check_own_name(const Draft& draft, const TableReader& table, const std::string& label) {
-  for (const Placed<Element>& other : std::get<std::vector<Placed<Element>>>(draft.data.elements.lists)) {
+  for (const Placed<Element>& other : draft.data.elements.list<Element>()) {
     if (other.label == label)
       table.fail("name", "another " + std::string(Element::name) + " is called '" + label + "' already");
   }
@@ -198,11 +121,7 @@ void read_elements(Draft& draft) {
 /// Reads the points. They are read first because everything else refers to them.
 void read_points(Draft& draft) {
   draft.for_each_table("point", [&](TableReader& table, std::size_t i) {
-    const std::string name = table.text("name");
-    if (name.empty()) table.fail("name", "must not be empty");
-    if (std::find(draft.points.begin(), draft.points.end(), name) != draft.points.end()) {
-      table.fail("name", "another point is called '" + name + "' already");
-    }
+    const std::string name = read_name(table, "point", draft.points);
     const Expression mass = draft.read_number(table, "mass", "kg", Range::non_negative);
     for (const Expression& e : draft.read_guess(table, "position")) draft.guess.push_back(e);
     table.finish();
@@ -294,8 +213,7 @@ std::optional<Eigen::Vector3d> axis_of(const Draft& draft, const ExpressionVecto
 /// The discs that spin about an axis of a body: a direction that is one of its directors.
 std::vector<SpinningAxis> spinning_axes(const Draft& draft) {
   std::vector<SpinningAxis> result;
-  for (const Placed<SpinningDisc>& disc :
-       std::get<std::vector<Placed<SpinningDisc>>>(draft.data.elements.lists)) {
+  for (const Placed<SpinningDisc>& disc : draft.data.elements.list<SpinningDisc>()) {
     const std::vector<Term>& terms = disc.element.axis.terms;
     if (terms.size() != 1) continue;
     for (const BodyDraft& body : draft.bodies) {
@@ -324,9 +242,10 @@ bool read_reactions(const Scene& scene) {
 ModelDescription describe(const Draft& draft) {
   ModelDescription description;
   description.shares_reactions = read_reactions(draft.scene);
-  const auto add = [&](const std::string& name, const char* unit) {
-    for (const char* axis : {".x", ".y", ".z"}) {
-      description.coordinate_names.push_back(name + axis);
+  const auto add = [&](const std::string& name, const char* unit,
+                       const std::array<const char*, 3>& parts = {".x", ".y", ".z"}) {
+    for (const char* part : parts) {
+      description.coordinate_names.push_back(name + part);
       description.coordinate_units.emplace_back(unit);
     }
   };
@@ -335,12 +254,7 @@ ModelDescription describe(const Draft& draft) {
     add(body.name, "m");
     for (const char* director : {".x_axis", ".y_axis", ".z_axis"}) add(body.name + director, "1");
   }
-  for (const std::string& inflow : draft.inflow_names) {
-    for (const char* part : {".mean", ".x", ".y"}) {
-      description.coordinate_names.push_back(inflow + part);
-      description.coordinate_units.emplace_back("m/s");
-    }
-  }
+  for (const std::string& inflow : draft.inflow_names) add(inflow, "m/s", {".mean", ".x", ".y"});
   description.data = draft.notes;
   for (std::size_t i = 0; i < draft.masses.size(); ++i) {
     const MassDistribution& masses = draft.masses[i];
@@ -348,7 +262,9 @@ ModelDescription describe(const Draft& draft) {
         {draft.mass_names[i], masses.carriers[0].terms[0].triple, static_cast<Eigen::Index>(masses.size)});
   }
   for (const BeamDraft& beam : draft.beams) {
-    for (std::size_t i = 0; i < beam.n_nodes; ++i) description.masses[beam.first_mass + i].name = beam.name;
+    const auto first =
+        description.masses.begin() + static_cast<std::ptrdiff_t>(draft.points.size() + beam.first_body);
+    std::for_each_n(first, beam.axis->nodes(), [&](MassCarrier& node) { node.name = beam.name; });
   }
   for (auto [names, of_states] : {std::pair(&description.coordinate_names, &draft.state_names),
                                   std::pair(&description.coordinate_units, &draft.state_units)})
@@ -405,14 +321,14 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   const auto gravity = read_field<Gravity>(draft, "acceleration", "m/s^2");
   if (rotation && gravity) check_gravity(draft, *rotation, *gravity);
   read_constraints(draft);
-  draft.data.elements.for_each([&]<class Element>(std::vector<Placed<Element>>&, std::size_t) {
+  draft.data.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>&, std::size_t) {
     if constexpr (has_own_table<Element>) read_elements<Element>(draft);
   });
-  for (auto& [strip, label] : read_strips(draft, rotation)) add_element(draft, std::move(strip), label);
-  for (auto& [section, label] : labelled_sections(draft)) add_element(draft, std::move(section), label);
-  for (auto& [point, label] : read_beam_damping(draft)) add_element(draft, std::move(point), label);
+  read_strips(draft, rotation);
+  add_beam_sections(draft);
+  read_beam_damping(draft);
   std::vector<InflowDraft> inflows = read_inflow(draft, rotation);
-  add_air(draft, rotation, inflows);
+  read_air(draft, rotation, inflows);
   read_trims(draft, inflows);
   if (rotation && !draft.rotor && !tables(scene, "spinning_disc").empty()) {
     throw scene_error(

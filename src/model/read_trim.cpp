@@ -51,11 +51,6 @@ ConditionText split(const TableReader& table, std::string_view text) {
   return parts;
 }
 
-template <class Element>
-std::vector<Placed<Element>>& list_of(Elements& elements) {
-  return std::get<std::vector<Placed<Element>>>(elements.lists);
-}
-
 class TrimReader {
  public:
   TrimReader(Draft& draft, const std::vector<InflowDraft>& inflows) : draft_(draft), inflows_(inflows) {}
@@ -96,13 +91,19 @@ class TrimReader {
     return *index;
   }
 
-  /// The right side, with the place of the condition in the file.
+  /// Lets read(reader, "condition") read a part of the condition, with its place in the file.
+  template <class Read>
+  auto read_part(const TableReader& table, const std::string& text, Read read) {
+    Table part;
+    part.where = draft_.begun_where;
+    part.entries.emplace_back("condition", Value{text, draft_.begun_where});
+    TableReader reader(draft_.scene, part, table.label(), draft_.used);
+    return read(reader, "condition");
+  }
+
   Expression target(TableReader& table, const std::string& text, std::string_view unit) {
-    Table side;
-    side.where = draft_.begun_where;
-    side.entries.emplace_back("condition", Value{text, draft_.begun_where});
-    TableReader reader(draft_.scene, side, table.label(), draft_.used);
-    return reader.expression("condition", unit);
+    return read_part(table, text,
+                     [&](TableReader& part, const char* key) { return part.expression(key, unit); });
   }
 
   std::variant<TrimLoad, TrimPlace, TrimAngle> quantity(TableReader& table, const ConditionText& parts) {
@@ -130,23 +131,23 @@ class TrimReader {
   }
 
   Place place(TableReader& table, const std::string& name) {
-    Table side;
-    side.where = draft_.begun_where;
-    side.entries.emplace_back("condition", Value{name, draft_.begun_where});
-    TableReader reader(draft_.scene, side, table.label(), draft_.used);
-    return draft_.read_moving_place(reader, "condition");
+    return read_part(table, name,
+                     [&](TableReader& part, const char* key) { return draft_.read_moving_place(part, key); });
   }
 
-  /// Names of the inflows of the scene, also of those that are left out.
-  std::vector<std::string> inflow_names() {
-    const std::vector<const Table*> all = tables(draft_.scene, std::string(Inflow::name));
+  /// Names of all tables of a kind, also if it is left out.
+  std::vector<std::string> names_of_tables(std::string_view kind) {
+    const std::vector<const Table*> all = tables(draft_.scene, std::string(kind));
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < all.size(); ++i) names.push_back(name_of(*all[i], Inflow::name, i));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      TableReader table(draft_.scene, *all[i], "", draft_.used);
+      names.push_back(label_of(table, kind, i));
+    }
     return names;
   }
 
   bool is_inflow(const std::string& name) {
-    const std::vector<std::string> names = inflow_names();
+    const std::vector<std::string> names = names_of_tables(Inflow::name);
     return std::find(names.begin(), names.end(), name) != names.end();
   }
 
@@ -162,7 +163,7 @@ class TrimReader {
         load.motion.places.push_back(annulus.velocity.terms.front().triple);
     }
     if (load.motion.places.empty()) {
-      const std::vector<std::string> names = inflow_names();
+      const std::vector<std::string> names = names_of_tables(Inflow::name);
       table.fail("condition",
                  "no [[inflow]] is called '" + name + "'" +
                      (names.empty() ? "; force(strips, axis) needs none" : "; " + suggestion(name, names)));
@@ -195,8 +196,8 @@ class TrimReader {
                            [&](const Term& term) { return !draft_.stands(term.triple); });
       });
     };
-    const auto& strips = list_of<Strip>(load.elements);
-    const auto& elements = list_of<BladeElement>(load.elements);
+    const auto& strips = load.elements.list<Strip>();
+    const auto& elements = load.elements.list<BladeElement>();
     return std::any_of(strips.begin(), strips.end(), moves_with_blade) ||
            std::any_of(elements.begin(), elements.end(), moves_with_blade);
   }
@@ -209,16 +210,12 @@ class TrimReader {
   }
 
   TrimAngle angle(TableReader& table, const std::string& name) {
-    const auto found = draft_.joint_angles.find(name);
-    if (found == draft_.joint_angles.end() || found->second.size() != 1) {
-      std::vector<std::string> names;
-      for (const auto& [label, angles] : draft_.joint_angles) {
-        if (angles.size() == 1) names.push_back(label);
-      }
-      table.fail("condition", "no joint with one angle (revolute, cylindrical) is called '" + name + "'; " +
-                                  suggestion(name, names));
+    std::vector<std::string> names;
+    for (const auto& [label, angles] : draft_.joint_angles) {
+      if (angles.size() == 1) names.push_back(label);
     }
-    TrimAngle result{found->second.front(), {}};
+    index_of(name, names, table, "condition", "joint with one angle (revolute, cylindrical)");
+    TrimAngle result{draft_.joint_angles.at(name).front(), {}};
     for (Place* direction : {&result.angle.axis, &result.angle.from, &result.angle.to}) {
       if (!direction->moves()) continue;
       direction->argument = static_cast<int>(result.arguments.size());
@@ -231,7 +228,7 @@ class TrimReader {
   TrimLoad spring_moment(const std::string& name) {
     TrimLoad load;
     take<TorsionalSpring>(name, load);
-    const HingeAngle& angle = list_of<TorsionalSpring>(load.elements).front().element.angle;
+    const HingeAngle& angle = load.elements.list<TorsionalSpring>().front().element.angle;
     load.motion.axis = angle.axis;
     load.motion.about = draft_.fixed_place({});
     load.motion.factor = angle.to.moves() ? 1.0 : -1.0;
@@ -302,18 +299,17 @@ class TrimReader {
     if (of != Quantities::strips)
       names.assign(draft_.constraint_labels.begin(), draft_.constraint_labels.end());
     if (of == Quantities::moments) {
-      for (const auto& spring : list_of<TorsionalSpring>(draft_.data.elements)) names.push_back(spring.label);
+      for (const auto& spring : draft_.data.elements.list<TorsionalSpring>()) names.push_back(spring.label);
     } else {
       for (const std::string_view kind : {Strip::name, BladeElement::name}) {
-        const std::vector<const Table*> all = tables(draft_.scene, std::string(kind));
-        for (std::size_t i = 0; i < all.size(); ++i) names.push_back(name_of(*all[i], kind, i));
+        for (std::string& strips : names_of_tables(kind)) names.push_back(std::move(strips));
         if (draft_.is_left_out(kind) && std::find(names.begin(), names.end(), name) != names.end())
           table.fail("condition", "the " + std::string(kind) + " '" + name +
                                       "' is left out; leave out the condition, too");
       }
     }
     if (of == Quantities::strips) {
-      for (std::string& inflow : inflow_names()) names.push_back(std::move(inflow));
+      for (std::string& inflow : names_of_tables(Inflow::name)) names.push_back(std::move(inflow));
     }
     const char* what = of == Quantities::moments  ? "no joint or torsional spring"
                        : of == Quantities::forces ? "no joint or strips"
@@ -321,31 +317,26 @@ class TrimReader {
     table.fail("condition", std::string(what) + " is called '" + name + "'; " + suggestion(name, names));
   }
 
-  std::string name_of(const Table& of, std::string_view kind, std::size_t i) {
-    TableReader table(draft_.scene, of, "", draft_.used);
-    return label_of(table, kind, i);
-  }
-
   template <class Element>
   bool has_label(const std::string& name) {
-    const auto& all = list_of<Element>(draft_.data.elements);
+    const auto& all = draft_.data.elements.list<Element>();
     return std::any_of(all.begin(), all.end(), [&](const auto& placed) { return placed.label == name; });
   }
 
   /// Copies the elements of that label, or of the strips of that name, to the load.
   template <class Element>
   void take(const std::string& name, TrimLoad& load) {
-    for (const auto& placed : list_of<Element>(draft_.data.elements)) {
+    for (const auto& placed : draft_.data.elements.list<Element>()) {
       const bool is_part =
           placed.label.starts_with(name + ", strip ") || placed.label.starts_with(name + ", annulus ");
-      if (placed.label == name || is_part) list_of<Element>(load.elements).push_back(placed);
+      if (placed.label == name || is_part) load.elements.list<Element>().push_back(placed);
     }
   }
 
   bool take_strips(const std::string& name, TrimLoad& load) {
     take<Strip>(name, load);
     take<BladeElement>(name, load);
-    if (list_of<Strip>(load.elements).empty() && list_of<BladeElement>(load.elements).empty()) return false;
+    if (load.elements.list<Strip>().empty() && load.elements.list<BladeElement>().empty()) return false;
     take<LiftLag>(name, load);
     take<ApparentMass>(name, load);
     return true;

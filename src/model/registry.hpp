@@ -45,12 +45,16 @@ struct ElementTable {
   std::tuple<std::vector<Placed<Element>>...> lists;
   static constexpr std::size_t kinds = sizeof...(Element);
 
-  /// Calls visit(list, index) for the list of every kind, in the order of the registry.
-  template <class Visit>
-  void for_each(Visit&& visit) {
-    std::size_t index = 0;
-    std::apply([&](auto&... list) { (visit(list, index++), ...); }, lists);
+  template <class One>
+  std::vector<Placed<One>>& list() {
+    return std::get<std::vector<Placed<One>>>(lists);
   }
+  template <class One>
+  const std::vector<Placed<One>>& list() const {
+    return std::get<std::vector<Placed<One>>>(lists);
+  }
+
+  /// Calls visit(list, index) for the list of every kind, in the order of the registry.
   template <class Visit>
   void for_each(Visit&& visit) const {
     std::size_t index = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/add_element.hpp"
 #include "model/gauss_points.hpp"
 #include "model/whole_number.hpp"
 
@@ -12,60 +13,47 @@ namespace {
 constexpr int most_strips = 64;
 constexpr int usual_strips = 4;  ///< default: exact for loads of degree up to 7 along the span
 
-/// Data that all strips of a blade share.
-struct Blade {
-  int body = 0;
-  ExpressionVector root, tip, leading, lift;  ///< in body axes
-  int strips = 0;
-};
-
-Blade read_blade(Draft& draft, TableReader& table) {
-  Blade blade;
-  blade.body = draft.read_body(table, "body");
-  blade.root = draft.read_vector(table, "root", "m", Range::any);
-  blade.tip = draft.read_vector(table, "tip", "m", Range::any);
-  draft.check_range(table, "tip", blade.tip - blade.root, Range::positive);
-  blade.leading = normalized(draft.read_vector(table, "leading", any_unit, Range::positive));
-  blade.lift = read_lift(draft, table, blade.leading);
-  blade.strips = read_strip_count(table, usual_strips);
-  return blade;
-}
-
 /// Air that moves across the axis of a rotor meets its blades once per revolution.
 void check_axial(const Draft& draft, const TableReader& table, const ExpressionVector& inflow) {
-  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
-    const Eigen::Vector3d v = draft.vector_at(inflow, i);
-    if (v.head<2>().norm() <= 1e-12 * v.norm()) continue;
-    table.fail("inflow",
-               "must be [0, 0, w], along the axis of the [rotor]; across it, the loads of the blades change "
-               "with the azimuth, and there is no steady state" +
-                   Draft::where_on_trace(i));
-  }
+  draft.require(table, "inflow",
+                "must be [0, 0, w], along the axis of the [rotor]; across it, the loads of the blades change "
+                "with the azimuth, and there is no steady state",
+                [&](std::size_t i) {
+                  const Eigen::Vector3d v = draft.vector_at(inflow, i);
+                  return v.head<2>().norm() <= 1e-12 * v.norm();
+                });
 }
 
 }  // namespace
 
-ExpressionVector read_lift(Draft& draft, TableReader& table, const ExpressionVector& leading,
-                           std::optional<ExpressionVector> otherwise) {
-  const ExpressionVector lift =
-      draft.read_vector(table, "lift", any_unit, Range::positive, std::move(otherwise));
-  const ExpressionVector across = lift - dot(lift, leading) * leading;
-  for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
-    if (draft.vector_at(across, i).norm() <= 1e-9 * draft.vector_at(lift, i).norm())
-      table.fail("lift", "must not be parallel to leading; it is" + Draft::where_on_trace(i));
-  }
-  return normalized(across);
+BodyLine read_body_line(Draft& draft, TableReader& table, int body,
+                        const std::optional<std::array<ExpressionVector, 2>>& usual_axes) {
+  const auto usual = [&](std::size_t i) {
+    return usual_axes ? std::optional((*usual_axes)[i]) : std::nullopt;
+  };
+  BodyLine line;
+  line.body = body;
+  line.root = draft.read_vector(table, "root", "m", Range::any);
+  line.tip = draft.read_vector(table, "tip", "m", Range::any);
+  draft.check_range(table, "tip", line.tip - line.root, Range::positive);
+  line.y = normalized(draft.read_vector(table, "leading", any_unit, Range::positive, usual(0)));
+  const ExpressionVector lift = draft.read_vector(table, "lift", any_unit, Range::positive, usual(1));
+  const ExpressionVector across = lift - dot(lift, line.y) * line.y;
+  draft.require(table, "lift", "must not be parallel to leading; it is", [&](std::size_t i) {
+    return draft.vector_at(across, i).norm() > 1e-9 * draft.vector_at(lift, i).norm();
+  });
+  line.z = normalized(across);
+  return line;
 }
 
 int read_strip_count(TableReader& table, int otherwise) {
   return table.has("strips") ? whole_number(table, "strips", 1, most_strips) : otherwise;
 }
 
-std::vector<std::pair<BladeElement, std::string>> read_strips(
-    Draft& draft, const std::optional<ExpressionVector>& rotation) {
-  std::vector<std::pair<BladeElement, std::string>> result;
+void read_strips(Draft& draft, const std::optional<ExpressionVector>& rotation) {
   draft.for_each_table(BladeElement::name, [&](TableReader& table, std::size_t i) {
-    const Blade blade = read_blade(draft, table);
+    const BodyLine line = read_body_line(draft, table, draft.read_body(table, "body"));
+    const int strips = read_strip_count(table, usual_strips);
     const Expression chord = draft.read_number(table, "chord", "m", Range::non_negative);
     const Expression density = draft.read_number(table, "density", "kg/m^3", Range::non_negative, 1.225);
     const Expression lift_slope =
@@ -73,19 +61,19 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
     const Expression drag = draft.read_number(table, "profile_drag", "", Range::non_negative, 0.0);
     const Expression pitch = draft.read_number(table, "pitch", "rad", Range::any, 0.0);
     const ExpressionVector inflow = draft.read_vector(table, "inflow", "m/s", Range::any, ExpressionVector{});
-    const bool stands = draft.stands(draft.bodies[static_cast<std::size_t>(blade.body)].triple);
+    const bool stands = draft.stands(draft.bodies[static_cast<std::size_t>(line.body)].triple);
     if (draft.rotor && !stands) check_axial(draft, table, inflow);
     const std::string label = label_of(table, BladeElement::name, i);
     table.finish();
-    const ExpressionVector span = blade.tip - blade.root;
+    const ExpressionVector span = line.tip - line.root;
     const Expression length = sqrt(dot(span, span));
-    const Carrier carrier{blade.body, -1};
+    const Carrier carrier{line.body, -1};
     int number = 0;
-    for (const auto& [at, weight] : gauss_points(blade.strips)) {
+    for (const auto& [at, weight] : gauss_points(strips)) {
       BladeElement strip;
-      strip.point = draft.on_body(blade.body, blade.root + Expression(at) * span);
-      strip.leading = draft.direction_on(carrier, blade.leading);
-      strip.lift = draft.direction_on(carrier, blade.lift);
+      strip.point = draft.on_body(line.body, line.root + Expression(at) * span);
+      strip.leading = draft.direction_on(carrier, line.y);
+      strip.lift = draft.direction_on(carrier, line.z);
       strip.angular_velocity =
           draft.vector(stands ? ExpressionVector{} : rotation.value_or(ExpressionVector{}));
       strip.inflow = draft.vector(inflow);
@@ -95,10 +83,9 @@ std::vector<std::pair<BladeElement, std::string>> read_strips(
       strip.lift_slope = draft.quantity(lift_slope);
       strip.profile_drag = draft.quantity(drag);
       strip.pitch = draft.quantity(pitch);
-      result.emplace_back(strip, label + ", strip " + std::to_string(++number));
+      add_element(draft, strip, label + ", strip " + std::to_string(++number));
     }
   });
-  return result;
 }
 
 std::vector<FieldHelp> strip_fields() {

@@ -28,51 +28,39 @@ int read_blade_count(TableReader& table) {
 }
 
 /// Marks the triples of the point, body or beam with this name.
-bool mark_standing(const Draft& draft, const std::string& name, std::vector<bool>& stands) {
-  bool found = false;
+void mark_standing(const Draft& draft, const std::string& name, std::vector<bool>& stands) {
   for (std::size_t i = 0; i < draft.points.size(); ++i) {
-    if (draft.points[i] != name) continue;
-    stands[i] = true;
-    found = true;
+    if (draft.points[i] == name) stands[i] = true;
   }
   const bool is_beam = std::any_of(draft.beams.begin(), draft.beams.end(),
                                    [&](const BeamDraft& beam) { return beam.name == name; });
   for (const BodyDraft& body : draft.bodies) {
-    if (body.name != name && !(is_beam && body.name.starts_with(name + "."))) continue;
-    std::fill_n(stands.begin() + body.triple, 4, true);
-    found = true;
+    if (body.name == name || (is_beam && body.name.starts_with(name + ".")))
+      std::fill_n(stands.begin() + body.triple, 4, true);
   }
-  return found;
-}
-
-std::vector<std::string> names_of_parts(const Draft& draft) {
-  std::vector<std::string> names = draft.points;
-  for (const BeamDraft& beam : draft.beams) names.push_back(beam.name);
-  for (const BodyDraft& body : draft.bodies) names.push_back(body.name);
-  return names;
 }
 
 void read_support(const Draft& draft, TableReader& table, std::vector<bool>& stands) {
   if (!table.has("support")) return;
+  std::vector<std::string> known = draft.points;
+  for (const auto& names : {names_of(draft.beams), names_of(draft.bodies)})
+    known.insert(known.end(), names.begin(), names.end());
   for (const std::string& name : table.texts("support")) {
-    if (!mark_standing(draft, name, stands))
-      table.fail("support", "no point, body or beam is called '" + name + "'; " +
-                                suggestion(name, names_of_parts(draft)));
+    index_of(name, known, table, "support", "point, body or beam");
+    mark_standing(draft, name, stands);
   }
 }
 
 /// The hub must be on the axis and upright, or its blades are not alike.
 void check_hub(const Draft& draft, const TableReader& table, const BodyDraft& hub) {
-  for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
-    const Eigen::Vector3d at = draft.vector_at(hub.position, i);
-    const Eigen::Vector3d axis = draft.vector_at(hub.rotation[2], i);
-    if (at.head<2>().norm() > exactly_on_axis)
-      table.fail("hub", "'" + hub.name + "' must be at [0, 0, z], on the axis of rotation; it is not" +
-                            Draft::where_on_trace(i));
-    if (axis.head<2>().norm() > exactly_on_axis || !(axis[2] > 0.0))
-      table.fail("hub", "the z axis of '" + hub.name + "' must be that of the frame; it is not" +
-                            Draft::where_on_trace(i));
-  }
+  draft.require(
+      table, "hub", "'" + hub.name + "' must be at [0, 0, z], on the axis of rotation; it is not",
+      [&](std::size_t i) { return !(draft.vector_at(hub.position, i).head<2>().norm() > exactly_on_axis); });
+  draft.require(table, "hub", "the z axis of '" + hub.name + "' must be that of the frame; it is not",
+                [&](std::size_t i) {
+                  const Eigen::Vector3d axis = draft.vector_at(hub.rotation[2], i);
+                  return axis.head<2>().norm() <= exactly_on_axis && axis[2] > 0.0;
+                });
 }
 
 }  // namespace

@@ -29,6 +29,16 @@ std::vector<Expression> differences(const std::vector<Expression>& positions) {
   return result;
 }
 
+/// One value is that of all segments; else there must be as many as segments.
+template <class Value>
+void spread(const TableReader& table, const std::string& key, std::vector<Value>& values,
+            std::size_t segments) {
+  if (values.size() == 1) values.resize(segments, values.front());
+  if (values.size() != segments)
+    table.fail(key, "has " + std::to_string(values.size()) + " values, and there are " +
+                        std::to_string(segments) + " segments");
+}
+
 /// A CSV file: a row per segment with its length, or per end of a segment with its position; the last of
 /// these closes the shaft and has no segment.
 Stations stations_of_file(const RotorDraft& rotor, TableReader& shaft) {
@@ -94,15 +104,9 @@ Stations stations_of_scene(TableReader& shaft) {
   for (const auto* column : {&result.outer, &result.inner}) {
     if (count == 1) count = column->size();
   }
-  const auto spread = [&](std::vector<Expression>& column, const std::string& key) {
-    if (column.size() == 1) column.resize(count, column.front());
-    if (column.size() != count)
-      table.fail(key, "has " + std::to_string(column.size()) + " values, and there are " +
-                          std::to_string(count) + " segments");
-  };
-  spread(result.length, by_position ? "position" : "length");
-  spread(result.outer, "outer");
-  spread(result.inner, "inner");
+  spread(table, by_position ? "position" : "length", result.length, count);
+  spread(table, "outer", result.outer, count);
+  spread(table, "inner", result.inner, count);
   table.finish();
   return result;
 }
@@ -113,10 +117,7 @@ std::vector<double> read_elements(const RotorDraft& rotor, TableReader& shaft, s
     if (!one.is_constant()) shaft.fail("elements", "expected whole numbers, found an expression");
     result.push_back(rotor.first_value(one));
   }
-  if (result.size() == 1) result.resize(segments, result.front());
-  if (result.size() != segments)
-    shaft.fail("elements", "has " + std::to_string(result.size()) + " values, and there are " +
-                               std::to_string(segments) + " segments");
+  spread(shaft, "elements", result, segments);
   return result;
 }
 
@@ -192,9 +193,7 @@ std::string read_shaft_name(const RotorDraft& rotor, TableReader& table, bool ne
   }
   std::string name = printable(table.text("name"));
   if (name.empty()) table.fail("name", "must not be empty");
-  for (const ShaftDraft& other : rotor.shafts) {
-    if (other.name == name) table.fail("name", "another shaft is called '" + name + "' already");
-  }
+  check_is_new(table, "shaft", name, names_of(rotor.shafts));
   return name;
 }
 

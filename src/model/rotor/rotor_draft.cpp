@@ -30,8 +30,7 @@ std::string ShaftDraft::element_name(std::size_t element) const {
 
 std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::string& key) const {
   std::vector<NodePlace> places;
-  std::vector<std::string> names;
-  for (const ShaftDraft& shaft : shafts) names.push_back(shaft.name);
+  const std::vector<std::string> names = names_of(shafts);
   for (const std::string& text : table.texts(key)) {
     const std::size_t digits = text.find_last_not_of("0123456789") + 1;
     long number = 0;
@@ -42,11 +41,9 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
     const std::string name = shaft_part(text.substr(0, digits));
     std::size_t shaft = 0;
     if (!name.empty() || shafts.size() > 1) {
-      while (shaft < shafts.size() && shafts[shaft].name != name) ++shaft;
       if (name.empty())
         table.fail(key, "say of which shaft, such as " + expected + "; found \"" + text + "\"");
-      if (shaft == shafts.size())
-        table.fail(key, "no shaft is called '" + name + "'; " + suggestion(name, names));
+      shaft = index_of(name, names, table, key, "shaft");
     }
     const std::size_t count = shafts[shaft].held.size();
     if (number < 1 || number > static_cast<long>(count))
