@@ -26,7 +26,7 @@ Matrix LinStates::matrix(std::size_t file) const {
 void LinStates::describe(SampledData& data) const {
   std::vector<std::string> names;
   for (const OpenFastState& state : parsed_) names.push_back(short_name(state));
-  const std::vector<std::string> parts = multiblade_names(n_blades_);
+  const std::vector<std::string> parts = multiblade_names(static_cast<int>(n_blades_));
   std::vector<bool> fixed(parsed_.size(), false);
   for (const BladeStates& tuple : tuples_) {
     for (std::size_t k = 0; k < n_blades_; ++k) {

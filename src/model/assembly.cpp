@@ -1,6 +1,7 @@
 #include "model/assembly.hpp"
 
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -88,11 +89,10 @@ void reset(BasicSteadyResidual<Real>& result, const RecordedEquations& equations
 Assembly::Assembly(MultibodyData data)
     : data_(std::move(data)),
       equations_(record_equations(data_, data_.elements, data_.constraints)),
-      doubles_(std::make_unique<Pool<double>>()),
-      extended_(std::make_unique<Pool<Extended>>()) {
+      pools_(std::make_unique<Pool<double>>(), std::make_unique<Pool<Extended>>()) {
   for (const TrimCondition& trim : data_.trims) conditions_.push_back(record_condition(data_, trim));
-  doubles_->constants = constants_of<double>(data_.quantities);
-  extended_->constants = constants_of<Extended>(data_.quantities);
+  pool<double>().constants = constants_of<double>(data_.quantities);
+  pool<Extended>().constants = constants_of<Extended>(data_.quantities);
   Recorder recorder;
   const auto number = [&recorder](double value) { return recorder.constant(value); };
   std::vector<Recorded> parameters;
@@ -111,15 +111,6 @@ Assembly::Assembly(MultibodyData data)
 Assembly::~Assembly() = default;
 Assembly::Assembly(Assembly&&) noexcept = default;
 Assembly& Assembly::operator=(Assembly&&) noexcept = default;
-
-template <>
-Assembly::Pool<double>& Assembly::pool() const {
-  return *doubles_;
-}
-template <>
-Assembly::Pool<Extended>& Assembly::pool() const {
-  return *extended_;
-}
 
 template <class Real>
 void Assembly::set_path(AssemblyWork<Real>& work, const BasicPath<Real>& path, int order) const {

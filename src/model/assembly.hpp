@@ -2,8 +2,9 @@
 // constraints.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
-#include <mutex>
+#include <tuple>
 
 #include "model/path_values.hpp"
 #include "model/recorded_equations.hpp"
@@ -24,6 +25,13 @@ class Assembly {
 
   const MultibodyData& data() const { return data_; }
   const RecordedEquations& equations() const { return equations_; }
+
+  /// The model's coordinate of a coordinate of points and bodies: they come first.
+  Eigen::Index coordinate(std::size_t of_scene) const { return static_cast<Eigen::Index>(of_scene); }
+  /// A description with the costs of what is recorded added to its effects.
+  ModelDescription with_costs(ModelDescription description) const;
+  /// As Model::structure, while the `moving` parameters change: the traced one and the unknowns of trims.
+  Structure structure(const std::vector<int>& moving) const;
 
   /// Real is double, or Extended for reference solutions; 0 <= order <= max_order.
   template <class Real>
@@ -51,15 +59,19 @@ class Assembly {
   EvaluationFault load_row(std::size_t trim, AssemblyWork<double>& work, Vector& of_x,
                            TrimDerivatives& result, EvaluationCounts& counts) const;
   template <class Real>
-  Pool<Real>& pool() const;
+  Pool<Real>& pool() const {
+    return *std::get<std::unique_ptr<Pool<Real>>>(pools_);
+  }
 
   MultibodyData data_;
   RecordedEquations equations_;
   std::vector<RecordedEquations> conditions_;  ///< by trim: its load, or its one equation
   Program quantity_values_;                    ///< those that depend on parameters, of the parameters
   std::vector<int> varying_;                   ///< slot of each value of `quantity_values_`
-  std::unique_ptr<Pool<double>> doubles_;
-  std::unique_ptr<Pool<Extended>> extended_;
+  std::tuple<std::unique_ptr<Pool<double>>, std::unique_ptr<Pool<Extended>>> pools_;
 };
+
+/// Structure of the equations of several parts of a model together, as Assembly::structure.
+Structure structure_of(std::initializer_list<const Assembly*> parts, const std::vector<int>& moving);
 
 }  // namespace eigentrail

@@ -13,29 +13,9 @@ constexpr double settled = 1e-12;
 
 }  // namespace
 
-ModelDescription with_costs(ModelDescription description,
-                            std::initializer_list<const RecordedEquations*> equations) {
-  for (const RecordedEquations* part : equations) add_costs(*part, description.effects);
-  return description;
-}
-
-Multibody::Multibody(ModelDescription description, Assembly assembly, std::vector<Expression> guess)
-    : Model(with_costs(std::move(description), {&assembly.equations()})),
-      assembly_(std::move(assembly)),
-      guess_(std::move(guess)) {}
-
-Vector Multibody::initial_guess(const Vector& parameters) const {
-  Vector si = parameters;
-  assembly_.data().parameters.to_si(std::span<double>(si.data(), static_cast<std::size_t>(si.size())));
-  const std::span<const double> values(si.data(), static_cast<std::size_t>(si.size()));
-  Vector x = Vector::Zero(n_coordinates());
-  for (std::size_t i = 0; i < guess_.size(); ++i)
-    x[static_cast<Eigen::Index>(i)] = guess_[i].evaluate(values);
-  settle_states(*this, n_coordinates() - 3 * assembly_.data().n_triples, parameters, x);
-  return x;
-}
-
-void settle_states(const Model& model, Eigen::Index n_states, const Vector& parameters, Vector& x) {
+void settle_states(const Model& model, const Vector& parameters, Vector& x) {
+  Eigen::Index n_states = 0;
+  for (const Effect& effect : model.description().effects) n_states += effect.states;
   if (n_states == 0) return;
   EvaluationCounts counts = model.new_counts();
   for (int i = 0; i < most_settlings; ++i) {
@@ -56,6 +36,15 @@ std::vector<int> moving_parameters(const ModelDescription& description, int trac
   std::vector<int> moving = {traced_parameter};
   for (const Trim& trim : description.trims) moving.push_back(trim.parameter);
   return moving;
+}
+
+ModelDescription Assembly::with_costs(ModelDescription description) const {
+  add_costs(equations_, description.effects);
+  return description;
+}
+
+Structure Assembly::structure(const std::vector<int>& moving) const {
+  return structure_of({this}, moving);
 }
 
 Structure structure_of(std::initializer_list<const Assembly*> parts, const std::vector<int>& moving) {
@@ -96,20 +85,6 @@ Structure structure_of(std::initializer_list<const Assembly*> parts, const std::
   return result;
 }
 
-Structure Multibody::structure(int traced_parameter) const {
-  return structure_of({&assembly_}, moving_parameters(description(), traced_parameter));
-}
-
-EvaluationFault Multibody::residual(const Path& path, int order, SteadyResidual& result,
-                                    EvaluationCounts& counts) const {
-  return assembly_.residual(path, order, result, counts);
-}
-
-EvaluationFault Multibody::linearize(const Path& path, int order, Linearization& result,
-                                     EvaluationCounts& counts) const {
-  return assembly_.linearize(path, order, result, counts);
-}
-
 EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, TrimDerivatives& result,
                                           EvaluationCounts& counts) {
   const Eigen::Index k = model.n_trims(), m = model.n_constraints();
@@ -129,12 +104,6 @@ EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, Tr
   return {};
 }
 
-EvaluationFault Multibody::trim_derivatives(const Path& at, TrimDerivatives& result,
-                                            EvaluationCounts& counts) const {
-  if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
-  return assembly_.trim_rows(at, result, counts);
-}
-
 std::vector<Expression> varying(const std::vector<Expression>& quantities) {
   std::vector<Expression> all;
   for (const Expression& quantity : quantities) {
@@ -142,22 +111,6 @@ std::vector<Expression> varying(const std::vector<Expression>& quantities) {
     if (!quantity.is_constant() && is_new) all.push_back(quantity);
   }
   return all;
-}
-
-std::vector<Expression> Multibody::expressions() const {
-  return varying(assembly_.data().quantities);
-}
-
-EvaluationFault Multibody::extended_residual(const BasicPath<Extended>& path,
-                                             BasicSteadyResidual<Extended>& result) const {
-  EvaluationCounts counts = new_counts();
-  return assembly_.residual(path, 0, result, counts);
-}
-
-EvaluationFault Multibody::extended_linearization(const BasicPath<Extended>& path,
-                                                  BasicLinearization<Extended>& result) const {
-  EvaluationCounts counts = new_counts();
-  return assembly_.linearize(path, 0, result, counts);
 }
 
 }  // namespace eigentrail

@@ -7,10 +7,6 @@
 
 namespace eigentrail {
 
-/// Structure of the equations of these elements and constraints together, as Model::structure, while the
-/// `moving` parameters change: the traced one and the unknowns of trims.
-Structure structure_of(std::initializer_list<const Assembly*> parts, const std::vector<int>& moving);
-
 /// The traced parameter, and the trimmed ones, which follow it.
 std::vector<int> moving_parameters(const ModelDescription& description, int traced_parameter);
 
@@ -19,39 +15,67 @@ std::vector<int> moving_parameters(const ModelDescription& description, int trac
 EvaluationFault differentiate_by_unknowns(const Model& model, const Path& at, TrimDerivatives& result,
                                           EvaluationCounts& counts);
 
-/// The description with the costs of recorded equations added to its effects.
-ModelDescription with_costs(ModelDescription description,
-                            std::initializer_list<const RecordedEquations*> equations);
-
 /// The expressions that are not constant, each once.
 std::vector<Expression> varying(const std::vector<Expression>& quantities);
 
-/// Solves the equations of the states of elements, the last `n_states` coordinates of a model, by Newton's
-/// method, with points and bodies where x has them.
-void settle_states(const Model& model, Eigen::Index n_states, const Vector& parameters, Vector& x);
+/// Solves the equations of the states of elements, the last coordinates of a model, by Newton's method, with
+/// points and bodies where x has them.
+void settle_states(const Model& model, const Vector& parameters, Vector& x);
 
-class Multibody final : public Model {
+/// A model of recorded equations: those of an Assembly, or of a rotor of equal blades (RotorEquations).
+template <class Equations>
+class RecordedModel final : public Model {
  public:
-  /// The costs of what is recorded are added to the description.
-  Multibody(ModelDescription description, Assembly assembly, std::vector<Expression> guess);
+  /// `guess`: by coordinate of points and bodies of the scene. The costs of what is recorded are added to the
+  /// description.
+  RecordedModel(ModelDescription description, Equations equations, std::vector<Expression> guess)
+      : Model(equations.with_costs(std::move(description))),
+        equations_(std::move(equations)),
+        guess_(std::move(guess)) {}
 
-  Vector initial_guess(const Vector& parameters) const override;
-  Structure structure(int traced_parameter) const override;
+  Vector initial_guess(const Vector& parameters) const override {
+    Vector si = parameters;
+    const std::span<double> values(si.data(), static_cast<std::size_t>(si.size()));
+    equations_.data().parameters.to_si(values);
+    Vector x = Vector::Zero(n_coordinates());
+    for (std::size_t i = 0; i < guess_.size(); ++i)
+      x[equations_.coordinate(i)] = guess_[i].evaluate(std::span<const double>(values));
+    settle_states(*this, parameters, x);
+    return x;
+  }
+  Structure structure(int traced_parameter) const override {
+    return equations_.structure(moving_parameters(description(), traced_parameter));
+  }
   EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
+                           EvaluationCounts& counts) const override {
+    return equations_.residual(path, order, result, counts);
+  }
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
-                            EvaluationCounts& counts) const override;
+                            EvaluationCounts& counts) const override {
+    return equations_.linearize(path, order, result, counts);
+  }
   EvaluationFault trim_derivatives(const Path& at, TrimDerivatives& result,
-                                   EvaluationCounts& counts) const override;
-  std::vector<Expression> expressions() const override;
+                                   EvaluationCounts& counts) const override {
+    if (auto fault = differentiate_by_unknowns(*this, at, result, counts)) return fault;
+    return equations_.trim_rows(at, result, counts);
+  }
+  std::vector<Expression> expressions() const override { return varying(equations_.data().quantities); }
   EvaluationFault extended_residual(const BasicPath<Extended>& path,
-                                    BasicSteadyResidual<Extended>& result) const override;
+                                    BasicSteadyResidual<Extended>& result) const override {
+    EvaluationCounts counts = new_counts();
+    return equations_.residual(path, 0, result, counts);
+  }
   EvaluationFault extended_linearization(const BasicPath<Extended>& path,
-                                         BasicLinearization<Extended>& result) const override;
+                                         BasicLinearization<Extended>& result) const override {
+    EvaluationCounts counts = new_counts();
+    return equations_.linearize(path, 0, result, counts);
+  }
 
  private:
-  Assembly assembly_;
-  std::vector<Expression> guess_;  ///< one per coordinate of points and bodies
+  Equations equations_;
+  std::vector<Expression> guess_;
 };
+
+using Multibody = RecordedModel<Assembly>;
 
 }  // namespace eigentrail

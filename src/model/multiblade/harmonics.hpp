@@ -16,6 +16,7 @@ namespace eigentrail {
 
 /// One of the functions phi. Its derivative by psi is slope times the function with index `partner`.
 struct Harmonic {
+  std::string name;          ///< "collective", "cosine", "sine 2", "differential"
   int number = 0;            ///< n; 0 for the collective and the differential function
   int partner = -1;          ///< index of the sine of a cosine and the reverse; -1: constant for each blade
   double slope = 0.0;        ///< -n for a cosine, n for a sine
@@ -27,6 +28,6 @@ std::vector<Harmonic> multiblade_harmonics(int n_blades);
 
 /// "collective", "cosine", "sine", "cosine 2", "sine 2", ..., "differential": the order of the coordinates
 /// that replace those of N blades.
-std::vector<std::string> multiblade_names(std::size_t n_blades);
+std::vector<std::string> multiblade_names(int n_blades);
 
 }  // namespace eigentrail

@@ -52,8 +52,8 @@ std::vector<TurnEntry> entries(Turn turn) {
 
 }  // namespace
 
-std::vector<std::vector<RotorShare>> MultibladeMap::shares(std::size_t harmonic) const {
-  std::vector<std::vector<RotorShare>> result(blade.size());
+RotorShares MultibladeMap::blade_shares(std::size_t harmonic) const {
+  RotorShares result(blade.size());
   for (std::size_t i = 0; i < blade.size(); ++i) {
     if (blade[i] >= 0) result[i] = {{blade[i] + static_cast<int>(harmonic) * stride[i], 1.0}};
   }
@@ -76,6 +76,14 @@ std::vector<std::vector<RotorShare>> MultibladeMap::shares(std::size_t harmonic)
       result[x] = {{support[y], static_cast<double>(inflow.sense)}};
       result[y] = {{support[x], -static_cast<double>(inflow.sense)}};
     }
+  }
+  return result;
+}
+
+RotorShares MultibladeMap::support_shares() const {
+  RotorShares result(support.size());
+  for (std::size_t i = 0; i < support.size(); ++i) {
+    if (support[i] >= 0) result[i] = {{support[i], 1.0}};
   }
   return result;
 }

@@ -22,9 +22,8 @@
 // sees v_0, and (v_x, v_y) turned by -psi about the axis of rotation.
 #pragma once
 
+#include <cstddef>
 #include <vector>
-
-#include "model/multiblade/harmonics.hpp"
 
 namespace eigentrail {
 
@@ -41,23 +40,24 @@ struct InflowCoordinates {
   int sense = 1;
 };
 
+/// G_a: the entries in the row of each coordinate of the scene.
+using RotorShares = std::vector<std::vector<RotorShare>>;
+
 struct MultibladeMap {
-  int n_blades = 0;
-  std::vector<Harmonic> harmonics;
   int n_coordinates = 0;  ///< of the rotor
   int n_constraints = 0;
-  std::vector<int> support;      ///< by coordinate of the scene: that of the rotor; -1 for those of a blade
-  std::vector<int> support_row;  ///< likewise by row of the constraints
+  std::vector<int> support;  ///< by coordinate of the scene: that of the rotor; -1 for those of a blade
   /// By coordinate of the scene: that of the rotor which is its collective part, the other harmonics follow
   /// at distances of `stride`; -1 for the support.
   std::vector<int> blade;
   std::vector<int> stride;
-  std::vector<int> blade_row;  ///< likewise by row of the constraints, at distances of one
-  int hub_coordinate = 0;      ///< of the scene: the first one of the hub's twelve
+  int hub_coordinate = 0;  ///< of the scene: the first one of the hub's twelve
   std::vector<InflowCoordinates> inflows = {};
 
-  /// G_a: the entries in the row of each coordinate of the scene.
-  std::vector<std::vector<RotorShare>> shares(std::size_t harmonic) const;
+  /// Of one blade and the hub as it sees it.
+  RotorShares blade_shares(std::size_t harmonic) const;
+  /// Of the support, which is the same for all azimuths.
+  RotorShares support_shares() const;
 };
 
 }  // namespace eigentrail

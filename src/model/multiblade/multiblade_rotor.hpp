@@ -15,46 +15,47 @@
 // as long as the hub stays on the axis of rotation, which is checked.
 #pragma once
 
-#include "model/assembly.hpp"
+#include "model/multiblade/harmonics.hpp"
 #include "model/multiblade/multiblade_map.hpp"
+#include "model/multibody.hpp"
 
 namespace eigentrail {
 
-struct BladedRotorData {
-  /// Elements and constraints of one blade and of the support, both over the coordinates of the scene.
-  Assembly blade, support;
-  /// For every condition of the blade and of the support: its index among those of the rotor.
-  std::vector<int> trims_of_blade, trims_of_support;
-  MultibladeMap map;
-  Expression speed;               ///< Omega, rad/s
-  std::string hub;                ///< its name, for messages
-  std::vector<Expression> guess;  ///< by coordinate of points and bodies of the scene
-  int n_states = 0;               ///< states of elements, the last coordinates of the rotor
+/// Equal parts of the rotor: N blades, or one support, which is constant over the azimuth.
+struct RotorPart {
+  Assembly equations;  ///< elements and constraints of one of them, over the coordinates of the scene
+  int count = 1;
+  std::vector<Harmonic> harmonics;
+  std::vector<RotorShares> shares;  ///< G_a by harmonic
+  /// By row of its constraints: that of the rotor for the first harmonic, those for the others follow; -1 for
+  /// constraints of other parts.
+  std::vector<int> rows;
+  std::vector<int> trims;  ///< for each of its conditions: index among those of the rotor
 };
 
-class MultibladeRotor final : public Model {
- public:
-  MultibladeRotor(ModelDescription description, BladedRotorData data);
+/// Equations of the rotor, for a RecordedModel.
+struct RotorEquations {
+  RotorPart blade, support;
+  MultibladeMap map;
+  Expression speed;  ///< Omega, rad/s
+  std::string hub;   ///< its name, for messages
 
-  Vector initial_guess(const Vector& parameters) const override;
-  Structure structure(int traced_parameter) const override;
+  const MultibodyData& data() const { return blade.equations.data(); }
+  Eigen::Index coordinate(std::size_t of_scene) const;
+  ModelDescription with_costs(ModelDescription description) const;
+  Structure structure(const std::vector<int>& moving) const;
+
   /// Of the steady state, in which only collective coordinates and multipliers have a part. A fault if the
   /// hub leaves the axis of rotation.
-  EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
-  EvaluationFault linearize(const Path& path, int order, Linearization& result,
-                            EvaluationCounts& counts) const override;
-  EvaluationFault trim_derivatives(const Path& at, TrimDerivatives& result,
-                                   EvaluationCounts& counts) const override;
-  std::vector<Expression> expressions() const override;
-  EvaluationFault extended_residual(const BasicPath<Extended>& path,
-                                    BasicSteadyResidual<Extended>& result) const override;
-  EvaluationFault extended_linearization(const BasicPath<Extended>& path,
-                                         BasicLinearization<Extended>& result) const override;
-
- private:
-  BladedRotorData data_;
-  std::vector<std::vector<std::vector<RotorShare>>> shares_;  ///< G_a by harmonic
+  template <class Real>
+  EvaluationFault residual(const BasicPath<Real>& path, int order, BasicSteadyResidual<Real>& result,
+                           EvaluationCounts& counts) const;
+  template <class Real>
+  EvaluationFault linearize(const BasicPath<Real>& path, int order, BasicLinearization<Real>& result,
+                            EvaluationCounts& counts) const;
+  EvaluationFault trim_rows(const Path& at, TrimDerivatives& result, EvaluationCounts& counts) const;
 };
+
+using MultibladeRotor = RecordedModel<RotorEquations>;
 
 }  // namespace eigentrail

@@ -1,7 +1,6 @@
 #include "model/multiblade/rotor_parts.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "eigentrail/core/text.hpp"
 #include "model/multiblade/multiblade_rotor.hpp"
@@ -92,12 +91,12 @@ void check_ties(const Draft& draft, const Touched& touched, std::string_view kin
 class Parts {
  public:
   explicit Parts(const Draft& draft) : draft_(draft) {
-    for (MultibodyData* part : {&blade, &support}) {
-      part->quantities = draft.data.quantities;
-      part->parameters = draft.data.parameters;
-      part->n_triples = draft.data.n_triples;
-      part->n_coordinates = draft.data.n_coordinates;
-      part->n_constraints = draft.data.n_constraints;
+    for (Part* part : {&blade, &support}) {
+      part->data.quantities = draft.data.quantities;
+      part->data.parameters = draft.data.parameters;
+      part->data.n_triples = draft.data.n_triples;
+      part->data.n_coordinates = draft.data.n_coordinates;
+      part->data.n_constraints = draft.data.n_constraints;
     }
     state_of_blade.assign(draft.state_names.size(), false);
     row_of_blade.assign(draft.constraint_names.size(), false);
@@ -112,9 +111,12 @@ class Parts {
                             draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].name + "'");
   }
 
-  MultibodyData blade, support;
+  struct Part {
+    MultibodyData data;
+    std::vector<int> trims;  ///< index of each of its conditions among those of the scene
+  };
+  Part blade, support;
   std::vector<bool> state_of_blade, row_of_blade;
-  std::vector<int> trims_of_blade, trims_of_support;
 
  private:
   template <class Element>
@@ -133,8 +135,7 @@ class Parts {
     }
     for (int i = 0; i < number_of_states<Element>(); ++i)
       state_of_blade[static_cast<std::size_t>(placed.first_state + i)] = touched.blade;
-    MultibodyData& part = touched.blade ? blade : support;
-    std::get<std::vector<Placed<Element>>>(part.elements.lists).push_back(placed);
+    part_of(touched).data.elements.list<Element>().push_back(placed);
   }
 
   void add(const Constraint& constraint) {
@@ -145,7 +146,7 @@ class Parts {
     joined_ = joined_ || (touched.blade && touched.hub);
     for (std::size_t i = 0; i < constraint.rows.size(); ++i)
       row_of_blade[static_cast<std::size_t>(constraint.first_row) + i] = touched.blade;
-    (touched.blade ? blade : support).constraints.push_back(constraint);
+    part_of(touched).data.constraints.push_back(constraint);
   }
 
   void add(const TrimCondition& trim, int index) {
@@ -161,9 +162,12 @@ class Parts {
       });
       for (const Constraint& constraint : load.constraints) touched.constraint(constraint);
     }
-    (touched.blade ? blade : support).trims.push_back(trim);
-    (touched.blade ? trims_of_blade : trims_of_support).push_back(index);
+    Part& part = part_of(touched);
+    part.data.trims.push_back(trim);
+    part.trims.push_back(index);
   }
+
+  Part& part_of(const Touched& touched) { return touched.blade ? blade : support; }
 
   const Draft& draft_;
   bool joined_ = false;
@@ -173,11 +177,7 @@ class Parts {
 class RotorNumbering {
  public:
   RotorNumbering(const Draft& draft, const Parts& parts, const ModelDescription& scene)
-      : draft_(draft),
-        scene_(scene),
-        names_(multiblade_names(static_cast<std::size_t>(draft.rotor->blades))) {
-    map.n_blades = draft.rotor->blades;
-    map.harmonics = multiblade_harmonics(map.n_blades);
+      : harmonics(multiblade_harmonics(draft.rotor->blades)), draft_(draft), scene_(scene) {
     map.hub_coordinate = 3 * draft.bodies[static_cast<std::size_t>(draft.rotor->hub)].triple;
     const std::size_t n = scene.coordinate_names.size();
     map.support.assign(n, -1);
@@ -198,7 +198,9 @@ class RotorNumbering {
     map.n_constraints = static_cast<int>(constraint_names.size());
   }
 
+  std::vector<Harmonic> harmonics;
   MultibladeMap map;
+  std::vector<int> blade_rows, support_rows;  ///< as RotorPart::rows
   std::vector<std::string> coordinate_names, coordinate_units, constraint_names;
   std::vector<MassCarrier> masses;
 
@@ -226,7 +228,7 @@ class RotorNumbering {
   void add_blade(const MassCarrier& mass) {
     const int first = next();
     const auto size = static_cast<int>(3 * mass.n_triples);
-    for (std::size_t a = 0; a < names_.size(); ++a) {
+    for (std::size_t a = 0; a < harmonics.size(); ++a) {
       masses.push_back({mass.name, next() / 3, mass.n_triples, false, wave(a, first / 3, mass.n_triples)});
       // Both waves of a harmonic are found from its cosine and its sine.
       if (masses.back().wave.sense < 0) masses.back().first_triple -= mass.n_triples;
@@ -234,14 +236,14 @@ class RotorNumbering {
         const auto of_scene = static_cast<std::size_t>(3 * mass.first_triple + i);
         map.blade[of_scene] = first + i;
         map.stride[of_scene] = size;
-        add_coordinate(of_scene, " " + names_[a]);
+        add_coordinate(of_scene, " " + harmonics[a].name);
       }
     }
   }
 
   BladeWave wave(std::size_t a, Eigen::Index first, Eigen::Index n_triples) const {
-    const Harmonic& harmonic = map.harmonics[a];
-    if (harmonic.number == 0) return {names_[a], 0, 0, first, -1};
+    const Harmonic& harmonic = harmonics[a];
+    if (harmonic.number == 0) return {harmonic.name, 0, 0, first, -1};
     const bool is_cosine = static_cast<std::size_t>(harmonic.partner) > a;
     const std::string number = harmonic.number == 1 ? "" : " " + std::to_string(harmonic.number);
     const auto sine = static_cast<Eigen::Index>(is_cosine ? a + 1 : a);
@@ -261,22 +263,20 @@ class RotorNumbering {
     (of_blade ? map.blade : map.support)[of_scene] = next();
     if (!of_blade) return add_coordinate(of_scene, "");
     map.stride[of_scene] = 1;
-    for (const std::string& name : names_) add_coordinate(of_scene, " " + name);
+    for (const Harmonic& harmonic : harmonics) add_coordinate(of_scene, " " + harmonic.name);
   }
 
   void add_row(std::size_t of_scene, bool of_blade) {
     const int first = static_cast<int>(constraint_names.size());
-    map.support_row.push_back(of_blade ? -1 : first);
-    map.blade_row.push_back(of_blade ? first : -1);
+    support_rows.push_back(of_blade ? -1 : first);
+    blade_rows.push_back(of_blade ? first : -1);
     const std::string& name = scene_.constraint_names[of_scene];
-    if (!of_blade) constraint_names.push_back(name);
-    for (std::size_t a = 0; of_blade && a < names_.size(); ++a)
-      constraint_names.push_back(name + " " + names_[a]);
+    if (!of_blade) return constraint_names.push_back(name);
+    for (const Harmonic& harmonic : harmonics) constraint_names.push_back(name + " " + harmonic.name);
   }
 
   const Draft& draft_;
   const ModelDescription& scene_;
-  std::vector<std::string> names_;
 };
 
 /// Every state of an element of the blade is one of each harmonic.
@@ -312,20 +312,24 @@ std::unique_ptr<Model> make_bladed_rotor(Draft& draft, ModelDescription descript
   description.masses = std::move(numbering.masses);
   description.rotor = BladedRotor{draft.rotor->blades, hub, speed, names_of(description.masses, false),
                                   names_of(description.masses, true)};
-  BladedRotorData data{Assembly(std::move(parts.blade)),
-                       Assembly(std::move(parts.support)),
-                       std::move(parts.trims_of_blade),
-                       std::move(parts.trims_of_support),
-                       std::move(numbering.map),
-                       speed,
-                       hub,
-                       draft.guess};
-  for (const Effect& effect : description.effects) data.n_states += effect.states;
+  std::vector<RotorShares> blade_shares;
+  for (std::size_t a = 0; a < numbering.harmonics.size(); ++a)
+    blade_shares.push_back(numbering.map.blade_shares(a));
+  RotorPart blade{Assembly(std::move(parts.blade.data)), draft.rotor->blades,
+                  std::move(numbering.harmonics),        std::move(blade_shares),
+                  std::move(numbering.blade_rows),       std::move(parts.blade.trims)};
+  RotorPart support{Assembly(std::move(parts.support.data)),
+                    1,
+                    {Harmonic()},
+                    {numbering.map.support_shares()},
+                    std::move(numbering.support_rows),
+                    std::move(parts.support.trims)};
+  RotorEquations equations{std::move(blade), std::move(support), std::move(numbering.map), speed, hub};
   for (SpinningAxis& spin : description.spins) {
     for (Eigen::Index* at : {&spin.origin, &spin.director})
-      *at = data.map.support[static_cast<std::size_t>(*at)];
+      *at = equations.map.support[static_cast<std::size_t>(*at)];
   }
-  return std::make_unique<MultibladeRotor>(std::move(description), std::move(data));
+  return std::make_unique<MultibladeRotor>(std::move(description), std::move(equations), draft.guess);
 }
 
 }  // namespace eigentrail
