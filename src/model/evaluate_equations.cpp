@@ -1,81 +1,12 @@
 #include "model/evaluate_equations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace eigentrail {
 namespace {
-
-/// Runs a program of a batch for all its elements, several at a time, and lets `take(element, lane)` use the
-/// results of each.
-template <class Real>
-class BatchRun {
- public:
-  BatchRun(const Batch& batch, const PathValues<Real>& values) : batch_(batch), values_(values) {}
-
-  template <int Lanes, class Take>
-  void run(const Program& program, Evaluation<Real, Lanes>& evaluation, Take take) const {
-    std::vector<typename Evaluation<Real, Lanes>::Functions> functions(
-        static_cast<std::size_t>(batch_.record.n_functions));
-    evaluation.begin(program, values_.order);
-    for (std::size_t begin = 0; begin < batch_.size; begin += Lanes) {
-      const std::size_t count = std::min<std::size_t>(Lanes, batch_.size - begin);
-      fill(program.numbers, batch_.numbers, batch_.record.n_numbers, values_.numbers, values_.number_varies,
-           begin, count, evaluation);
-      fill(program.coordinates, batch_.coordinates, batch_.record.n_coordinates, values_.coordinates,
-           values_.coordinate_varies, begin, count, evaluation);
-      for (std::size_t f = 0; f < functions.size(); ++f) {
-        for (std::size_t l = 0; l < Lanes; ++l)
-          functions[f][l] = batch_.functions[(begin + std::min(l, count - 1)) * functions.size() + f];
-      }
-      evaluation.run(program, functions);
-      for (std::size_t l = 0; l < count; ++l) take(begin + l, static_cast<int>(l));
-    }
-  }
-
- private:
-  /// Lanes without an element repeat the last one.
-  template <int Lanes>
-  static void fill(const std::vector<LocalValue>& inputs, const std::vector<int>& all, int n,
-                   const typename PathValues<Real>::Columns& columns, const std::vector<char>& varies,
-                   std::size_t begin, std::size_t count, Evaluation<Real, Lanes>& evaluation) {
-    for (const LocalValue& input : inputs) {
-      auto* const series = evaluation.series(input.slot);
-      bool any = false;
-      std::array<int, Lanes> index;
-      for (std::size_t l = 0; l < Lanes; ++l) {
-        const std::size_t element = begin + std::min(l, count - 1);
-        index[l] = all[element * static_cast<std::size_t>(n) + static_cast<std::size_t>(input.index)];
-        any = any || varies[static_cast<std::size_t>(index[l])];
-      }
-      const Eigen::Index top = any ? columns.rows() - 1 : 0;
-      for (Eigen::Index k = 0; k <= top; ++k) {
-        for (int l = 0; l < Lanes; ++l) series[k][l] = columns(k, index[static_cast<std::size_t>(l)]);
-      }
-      evaluation.set_varies(input.slot, any);
-    }
-  }
-
-  const Batch& batch_;
-  const PathValues<Real>& values_;
-};
-
-/// The first element or constraint, in the order of the scene, that gave a number that is not finite.
-class FirstFault {
- public:
-  explicit FirstFault(const RecordedEquations& equations) : equations_(equations) {}
-
-  void note(int label) { first_ = first_ < 0 ? label : std::min(first_, label); }
-
-  EvaluationFault fault() const {
-    if (first_ < 0) return {};
-    return {equations_.labels[static_cast<std::size_t>(first_)]};
-  }
-
- private:
-  const RecordedEquations& equations_;
-  int first_ = -1;
-};
 
 /// Zero if all numbers that were added are finite, else not a number.
 template <class Real>
@@ -96,20 +27,12 @@ int for_each_coefficient(const Evaluation& evaluation, int slot, int lane, int o
 
 template <class Real>
 BasicSystemMatrix<Real> matrix_of(const Pattern& pattern, const Real* entries) {
-  using Matrix = typename BasicSystemMatrix<Real>::Dense;
-  if (!pattern.is_sparse()) return Matrix(Eigen::Map<const Matrix>(entries, pattern.rows, pattern.columns));
-  typename BasicSystemMatrix<Real>::Sparse matrix(pattern.rows, pattern.columns);
-  matrix.reserve(static_cast<Eigen::Index>(pattern.size()));
-  for (int column = 0; column < pattern.columns; ++column) {
-    matrix.startVec(column);
-    const auto at = static_cast<std::size_t>(column);
-    for (int i = pattern.first[at]; i < pattern.first[at + 1]; ++i) {
-      if (entries[i] != Real(0.0))
-        matrix.insertBack(pattern.row[static_cast<std::size_t>(i)], column) = entries[i];
-    }
-  }
-  matrix.finalize();
-  return matrix;
+  using Dense = typename BasicSystemMatrix<Real>::Dense;
+  using Sparse = typename BasicSystemMatrix<Real>::Sparse;
+  if (!pattern.is_sparse()) return Dense(Eigen::Map<const Dense>(entries, pattern.rows, pattern.columns));
+  const Eigen::Map<const Sparse> all(pattern.rows, pattern.columns, static_cast<Eigen::Index>(pattern.size()),
+                                     pattern.first.data(), pattern.row.data(), entries);
+  return Sparse(all.pruned());
 }
 
 /// The sum as a series without trailing coefficients that are zero.
@@ -126,7 +49,7 @@ template <class Real>
 class EquationRun {
  public:
   EquationRun(const RecordedEquations& equations, const PathValues<Real>& values, EquationWork<Real>& work)
-      : equations_(equations), values_(values), work_(work), faults_(equations) {}
+      : equations_(equations), values_(values), work_(work) {}
 
   EvaluationFault residual(BasicSteadyResidual<Real>& result) {
     for (const Batch& batch : equations_.batches) {
@@ -134,7 +57,7 @@ class EquationRun {
         add_residual(batch, evaluation, element, lane, result);
       });
     }
-    return faults_.fault();
+    return fault();
   }
 
   EvaluationFault linearization(BasicLinearization<Real>& result) {
@@ -150,21 +73,66 @@ class EquationRun {
     const std::array matrices = {&result.M, &result.C, &result.K, &result.A};
     for (std::size_t target = 0; target < matrices.size(); ++target)
       take_sum<Real>(equations_.patterns[target], work_.sums[target], tops_[target], *matrices[target]);
-    return faults_.fault();
+    return fault();
   }
 
  private:
-  /// Calls take(evaluation, element, lane). A single element takes the evaluation of one lane.
+  EvaluationFault fault() const {
+    const auto at = static_cast<std::size_t>(first_fault_);
+    return at < equations_.labels.size() ? EvaluationFault{equations_.labels[at]} : EvaluationFault{};
+  }
+
+  /// Calls take(evaluation, element, lane) with the results of each element of a batch. A single element
+  /// takes the evaluation of one lane.
   template <class Take>
   void for_each_element(const Batch& batch, const Program& program, Take take) {
-    const BatchRun<Real> run(batch, values_);
-    const auto with = [&](auto& evaluation) {
-      run.run(program, evaluation, [&](std::size_t element, int lane) { take(evaluation, element, lane); });
-    };
     if (batch.size == 1)
-      with(work_.single);
+      run(batch, program, work_.single, take);
     else
-      with(work_.several);
+      run(batch, program, work_.several, take);
+  }
+
+  /// Runs a program of a batch for all its elements, several at a time.
+  template <int Lanes, class Take>
+  void run(const Batch& batch, const Program& program, Evaluation<Real, Lanes>& evaluation, Take take) {
+    std::vector<typename Evaluation<Real, Lanes>::Functions> functions(
+        static_cast<std::size_t>(batch.record.n_functions));
+    evaluation.begin(program, values_.order);
+    for (std::size_t begin = 0; begin < batch.size; begin += Lanes) {
+      const std::size_t count = std::min<std::size_t>(Lanes, batch.size - begin);
+      fill(program.numbers, batch.numbers, batch.record.n_numbers, values_.numbers, values_.number_varies,
+           begin, count, evaluation);
+      fill(program.coordinates, batch.coordinates, batch.record.n_coordinates, values_.coordinates,
+           values_.coordinate_varies, begin, count, evaluation);
+      for (std::size_t f = 0; f < functions.size(); ++f) {
+        for (std::size_t l = 0; l < Lanes; ++l)
+          functions[f][l] = batch.functions[(begin + std::min(l, count - 1)) * functions.size() + f];
+      }
+      evaluation.run(program, functions);
+      for (std::size_t l = 0; l < count; ++l) take(evaluation, begin + l, static_cast<int>(l));
+    }
+  }
+
+  /// Lanes without an element repeat the last one.
+  template <int Lanes>
+  static void fill(const std::vector<LocalValue>& inputs, const std::vector<int>& all, int n,
+                   const typename PathValues<Real>::Columns& columns, const std::vector<char>& varies,
+                   std::size_t begin, std::size_t count, Evaluation<Real, Lanes>& evaluation) {
+    for (const LocalValue& input : inputs) {
+      auto* const series = evaluation.series(input.slot);
+      bool any = false;
+      std::array<int, Lanes> index;
+      for (std::size_t l = 0; l < Lanes; ++l) {
+        const std::size_t element = begin + std::min(l, count - 1);
+        index[l] = all[element * static_cast<std::size_t>(n) + static_cast<std::size_t>(input.index)];
+        any = any || varies[static_cast<std::size_t>(index[l])];
+      }
+      const Eigen::Index top = any ? columns.rows() - 1 : 0;
+      for (Eigen::Index k = 0; k <= top; ++k) {
+        for (int l = 0; l < Lanes; ++l) series[k][l] = columns(k, index[static_cast<std::size_t>(l)]);
+      }
+      evaluation.set_varies(input.slot, any);
+    }
   }
 
   template <class Evaluation>
@@ -188,7 +156,7 @@ class EquationRun {
                              probe.add(value);
                            });
     }
-    if (!probe.is_finite()) faults_.note(batch.labels[element]);
+    if (!probe.is_finite()) first_fault_ = std::min(first_fault_, batch.labels[element]);
   }
 
   template <class Evaluation>
@@ -208,13 +176,15 @@ class EquationRun {
           });
       tops_[target] = std::max(tops_[target], top);
     }
-    if (!probe.is_finite()) faults_.note(batch.labels[element]);
+    if (!probe.is_finite()) first_fault_ = std::min(first_fault_, batch.labels[element]);
   }
 
   const RecordedEquations& equations_;
   const PathValues<Real>& values_;
   EquationWork<Real>& work_;
-  FirstFault faults_;
+  /// Label of the first element or constraint, in the order of the scene, that gave a number that is not
+  /// finite.
+  int first_fault_ = std::numeric_limits<int>::max();
   std::array<int, 4> tops_{};  ///< highest coefficients of the sums that may not be zero
 };
 

@@ -136,7 +136,8 @@ class SparseReader {
           fail("matrix " + path + ": row " + std::to_string(row + 1) + " has an entry in column " +
                std::to_string(indices[at]) + " (from 0); it is square with " + std::to_string(size_) +
                " columns");
-        entries.emplace_back(row, static_cast<Eigen::Index>(indices[at]), finite(data[at], path));
+        check_finite(data[at], path);
+        entries.emplace_back(row, static_cast<Eigen::Index>(indices[at]), data[at]);
       }
     }
     SparseMatrix result(size_, size_);
@@ -153,21 +154,13 @@ class SparseReader {
     take_size(path, shape[0]);
     count(shape[0] * shape[1]);
     const std::vector<double> data = file_.read_real(path);
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t i = 0; i < data.size(); ++i) {
-      const auto n = static_cast<std::size_t>(size_);
-      if (data[i] != 0.0)
-        entries.emplace_back(static_cast<Eigen::Index>(i / n), static_cast<Eigen::Index>(i % n),
-                             finite(data[i], path));
-    }
-    SparseMatrix result(size_, size_);
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
+    for (const double value : data) check_finite(value, path);
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return Eigen::Map<const RowMajor>(data.data(), size_, size_).sparseView();
   }
 
-  double finite(double value, const std::string& path) const {
+  void check_finite(double value, const std::string& path) const {
     if (!std::isfinite(value)) fail("matrix " + path + " has an entry that is not finite");
-    return value;
   }
 
   TableReader& table_;

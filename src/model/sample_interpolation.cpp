@@ -1,6 +1,5 @@
 #include "model/sample_interpolation.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -45,15 +44,6 @@ EntryScale entry_scale(const SampledData& data) {
   return scale;
 }
 
-/// R of the QR decomposition of the rows of both matrices.
-Matrix triangular_factor(const Matrix& above, const Matrix& below) {
-  Matrix both(above.rows() + below.rows(), below.cols());
-  both << above, below;
-  const Eigen::Index rows = std::min(both.rows(), both.cols());
-  Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(both);
-  return qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
-}
-
 /// See SamplePiece::reduced: one row per entry of the matrices, brought to as many rows as samples, column by
 /// column of the matrices.
 Matrix reduce(const SampledData& data, std::size_t first, std::size_t count) {
@@ -72,8 +62,9 @@ Matrix reduce(const SampledData& data, std::size_t first, std::size_t count) {
         rows.col(k) = list[first + static_cast<std::size_t>(k)].col(column);
       rows.colwise() -= Vector(rows.rowwise().mean());
       if (rows.isZero(0.0)) continue;
-      reduced =
-          triangular_factor(reduced, Matrix(factor * scale.columns[column] * scale.rows.asDiagonal() * rows));
+      Matrix both(reduced.rows() + n, samples);
+      both << reduced, factor * scale.columns[column] * scale.rows.asDiagonal() * rows;
+      reduced = triangular_factor(both);
     }
   }
   return reduced;

@@ -58,16 +58,12 @@ Matrix weighted_powers(const std::vector<double>& x, const Matrix& samples, int 
   return result;
 }
 
-Matrix triangle_of(const Matrix& tall) {
-  return Eigen::HouseholderQR<Matrix>(tall).matrixQR().topRows(tall.cols()).triangularView<Eigen::Upper>();
-}
-
 /// Coefficients q of the least |differences q| / |powers q|.
 Vector least_quotient(const Matrix& differences, const Matrix& powers) {
-  const Matrix scale = triangle_of(powers);
+  const Matrix scale = triangular_factor(powers);
   const Matrix quotient = scale.transpose()
                               .triangularView<Eigen::Lower>()
-                              .solve(triangle_of(differences).transpose())
+                              .solve(triangular_factor(differences).transpose())
                               .transpose();
   return scale.triangularView<Eigen::Upper>().solve(right_singular_vectors(quotient).V.rightCols(1));
 }
@@ -87,6 +83,11 @@ double distance_to_range(Complex x) {
 }
 
 }  // namespace
+
+Matrix triangular_factor(const Matrix& matrix) {
+  const Eigen::Index rows = std::min(matrix.rows(), matrix.cols());
+  return Eigen::HouseholderQR<Matrix>(matrix).matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+}
 
 int Denominator::degree() const {
   int count = 0;

@@ -26,6 +26,9 @@ struct Denominator {
   double operator()(double x) const;
 };
 
+/// R of the QR decomposition.
+Matrix triangular_factor(const Matrix& matrix);
+
 /// The denominator of degree `n_poles` with which `samples` (one column per node) are best a polynomial of
 /// `degree`, divided by it. Empty if poles lie in the range of the nodes or too near, are too far to matter,
 /// or if there are too few samples to tell. degree >= n_poles.
