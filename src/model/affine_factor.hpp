@@ -25,4 +25,15 @@ bool all_equal_transposes(const std::vector<AffineTerm<Storage>>& terms, double 
                      [sign](const AffineTerm<Storage>& term) { return equals_transpose(term.matrix, sign); });
 }
 
+/// What a damping matrix contributes that is a sum of these terms, or interpolated between these samples.
+template <class Matrices>
+Contribution damping_parts(const Matrices& all) {
+  return {.dissipative = !all_equal_transposes(all, -1.0), .gyroscopic = !all_equal_transposes(all, 1.0)};
+}
+/// Likewise a stiffness matrix.
+template <class Matrices>
+Contribution stiffness_parts(const Matrices& all) {
+  return {.conservative = true, .circulatory = !all_equal_transposes(all, 1.0)};
+}
+
 }  // namespace eigentrail

@@ -15,15 +15,8 @@ template <class Storage>
 std::vector<Effect> effects_of(const AffinePencil<Storage>& pencil) {
   const auto count = [](const auto& terms) { return static_cast<int>(terms.size()); };
   return {{"M", "mass matrix, sum of terms with factors", count(pencil.M), {.inertia = true}},
-          {"C",
-           "damping and gyroscopic matrix",
-           count(pencil.C),
-           {.dissipative = !all_equal_transposes(pencil.C, -1.0),
-            .gyroscopic = !all_equal_transposes(pencil.C, 1.0)}},
-          {"K",
-           "stiffness matrix",
-           count(pencil.K),
-           {.conservative = true, .circulatory = !all_equal_transposes(pencil.K, 1.0)}}};
+          {"C", "damping and gyroscopic matrix", count(pencil.C), damping_parts(pencil.C)},
+          {"K", "stiffness matrix", count(pencil.K), stiffness_parts(pencil.K)}};
 }
 
 template <class Storage>

@@ -9,22 +9,11 @@
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "model/beside_scene.hpp"
+#include "model/draft.hpp"
 #include "model/sample_interpolation.hpp"
 
 namespace eigentrail {
 namespace {
-
-std::vector<std::string> names_of(const TableColumns& columns) {
-  std::vector<std::string> names;
-  for (const auto& [name, unit] : columns.known) names.push_back(name);
-  return names;
-}
-
-const std::string& unit_of_column(const TableColumns& columns, const std::string& name) {
-  return std::find_if(columns.known.begin(), columns.known.end(),
-                      [&](const auto& known) { return known.first == name; })
-      ->second;
-}
 
 void check_ascending(const CsvTable& csv, const std::vector<double>& values) {
   const CsvColumn& first = csv.columns.front();
@@ -68,7 +57,7 @@ double error_left_out(const SamplePiece& piece, const std::vector<double>& colum
 
 /// Checks the size of the table and the names of its columns.
 void check_columns(const CsvTable& csv, const TableColumns& columns) {
-  const std::vector<std::string> known = names_of(columns);
+  const std::vector<std::string> known = names_of(columns.known);
   const std::string& first = csv.columns.front().name;
   if (std::find(known.begin(), known.end(), first) != known.end())
     throw InputError(csv.path + ": the first column is " + columns.argument + "; found '" + first + "'");
@@ -85,11 +74,14 @@ void check_columns(const CsvTable& csv, const TableColumns& columns) {
   if (csv.rows() < 2) throw InputError(csv.path + ": has one row; expected two at least");
 }
 
-std::vector<std::vector<double>> coefficients_of(const CsvTable& csv, const TableColumns& known) {
-  std::vector<std::vector<double>> columns;
-  for (std::size_t i = 1; i < csv.columns.size(); ++i)
-    columns.push_back(si_values(csv, csv.columns[i], unit_of_column(known, csv.columns[i].name)));
-  return columns;
+std::vector<std::vector<double>> coefficients_of(const CsvTable& csv, const TableColumns& columns) {
+  std::vector<std::vector<double>> coefficients;
+  for (std::size_t i = 1; i < csv.columns.size(); ++i) {
+    const auto known = std::find_if(columns.known.begin(), columns.known.end(),
+                                    [&](const KnownColumn& one) { return one.name == csv.columns[i].name; });
+    coefficients.push_back(si_values(csv, csv.columns[i], known->unit));
+  }
+  return coefficients;
 }
 
 CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const TableColumns& known) {
@@ -116,8 +108,8 @@ CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const
       table.error = error;
       table.worst = csv.columns[i + 1].name;
     }
-    table.columns.emplace_back(csv.columns[i + 1].name,
-                               std::make_shared<const TabulatedFactor>(table.piece, columns[i], known.exact));
+    table.columns[csv.columns[i + 1].name] =
+        std::make_shared<const TabulatedFactor>(table.piece, columns[i], known.exact);
   }
   return table;
 }
@@ -125,10 +117,8 @@ CoefficientTable tabulate(const CsvTable& csv, const Expression& argument, const
 }  // namespace
 
 std::shared_ptr<const TabulatedFactor> CoefficientTable::find(const std::string& key) const {
-  for (const auto& [name, column] : columns) {
-    if (name == key) return column;
-  }
-  return nullptr;
+  const auto found = columns.find(key);
+  return found == columns.end() ? nullptr : found->second;
 }
 
 std::string CoefficientTable::outside(double at) const {
@@ -147,7 +137,7 @@ std::string CoefficientTable::in_words() const {
                      short_text(nodes.front() / factor, 3) + " to " + short_text(nodes.back() / factor, 3) +
                      (first_unit.empty() ? "" : " " + first_unit) + ", interpolant of degree " +
                      std::to_string(piece->interpolant.degree());
-  if (columns.front().second->is_exact()) return text + ", taken as exact";
+  if (columns.begin()->second->is_exact()) return text + ", taken as exact";
   if (std::isnan(error)) return text + "; too few rows to tell its error";
   return text + "; a row that is left out is missed by " + short_text(error, 3) + " of the largest " + worst +
          " at most";

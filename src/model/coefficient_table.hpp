@@ -2,6 +2,7 @@
 // speed, of airfoils over the angle of attack.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ struct CoefficientTable {
   std::string first_name;  ///< of the argument's column
   std::string first_unit;
   double factor = 1.0;  ///< SI value = factor * value of the argument's column
-  std::vector<std::pair<std::string, std::shared_ptr<const TabulatedFactor>>> columns;
+  std::map<std::string, std::shared_ptr<const TabulatedFactor>> columns;
   /// Largest error of a column at a row that is left out, relative to the largest value of the column; NaN
   /// with fewer than four rows.
   double error = 0.0;
@@ -33,11 +34,15 @@ struct CoefficientTable {
   std::string in_words() const;
 };
 
+struct KnownColumn {
+  std::string name, unit;
+};
+
 /// What columns a table may have.
 struct TableColumns {
-  std::string argument;                                    ///< what the first column is, in words
-  std::string unit;                                        ///< of the first column; empty: any
-  std::vector<std::pair<std::string, std::string>> known;  ///< coefficients and their units
+  std::string argument;            ///< what the first column is, in words
+  std::string unit;                ///< of the first column; empty: any
+  std::vector<KnownColumn> known;  ///< coefficients and their units
   /// Degree of the interpolant, without poles, or that of all rows if they are fewer; absent: degree and
   /// poles with the least leave-one-out errors. These are deceived by functions that are odd or even over
   /// rows that are symmetric: a row that is left out then has a mirror image.

@@ -1,6 +1,7 @@
 #include "model/read_matrix_family.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/hdf5_file.hpp"
 #include "eigentrail/model/affine_family.hpp"
@@ -126,6 +127,11 @@ struct FamilyReader {
     return polynomial;
   }
 
+  /// Of the scene: K and M or C must be there.
+  Polynomial polynomial_in(TableReader& source, const std::string& key) {
+    const bool needed = key == "K" || (key == "M" && !source.has("C"));
+    return needed || source.has(key) ? from_scene(key) : Polynomial();
+  }
   int power_of(const std::string& name, const std::string& key) const {
     const std::optional<int> power = power_in(name);
     if (!power || *power < 0 || *power > max_power)
@@ -135,6 +141,9 @@ struct FamilyReader {
   }
 
   /// The names of the matrices of a group; none if it is absent.
+  static std::vector<std::string> names_in(TableReader& source, const std::string& key) {
+    return source.has(key) ? std::vector<std::string>{key} : std::vector<std::string>();
+  }
   static std::vector<std::string> names_in(const Hdf5File& file, const std::string& key) {
     return file.has("/" + key) ? file.members("/" + key) : std::vector<std::string>();
   }
@@ -207,73 +216,47 @@ Equations first_order(Polynomial E, Polynomial A) {
 const std::string expected_datasets =
     "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
 
+/// The equations of the scene's table, of a file or in memory; `key` is named where matrices do not fit.
 template <class Source>
-Equations equations_in(FamilyReader& reader, const Source& source) {
-  const auto has = [&](const char* key) { return !reader.names_in(source, key).empty(); };
-  if (reader.is_first_order(has("M"), has("C"), has("K"), has("E"), has("A"), "file"))
+Equations equations_in(FamilyReader& reader, Source& source, const std::string& key) {
+  const auto has = [&](const char* matrix) { return !reader.names_in(source, matrix).empty(); };
+  if (reader.is_first_order(has("M"), has("C"), has("K"), has("E"), has("A"), key))
     return first_order(reader.polynomial_in(source, "E"), reader.polynomial_in(source, "A"));
   return {reader.polynomial_in(source, "M"), reader.polynomial_in(source, "C"),
           reader.polynomial_in(source, "K"), reader.polynomial_in(source, "A")};
 }
 
-Equations read_file(FamilyReader& reader) {
-  for (const char* key : {"M", "C", "K", "A", "E"}) {
-    if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
-  }
-  Equations p;
+/// Reads the equations from the file, or from memory. Returns the family itself if the file has sparse
+/// matrices or the scene gives factors of matrices; else null.
+std::unique_ptr<Model> read_file(FamilyReader& reader, Equations& p) {
+  TableReader& table = reader.table;
+  const std::string name = table.text("file");
+  const auto in_memory = reader.scene.matrices.find(name);
+  const bool is_in_memory = in_memory != reader.scene.matrices.end();
+  if (is_in_memory && table.has("factors"))
+    reader.fail("factors", "are those of matrices in a file, not in memory");
   try {
-    const auto in_memory = reader.scene.matrices.find(reader.table.text("file"));
-    if (in_memory != reader.scene.matrices.end()) {
-      p = equations_in(reader, in_memory->second);
-    } else {
-      const Hdf5File file = open_beside_scene(reader.scene, reader.table);
-      const std::string fault = unknown_member(file, {"M", "C", "K", "A", "E", "state_names"});
+    std::optional<const Hdf5File> file;
+    if (!is_in_memory) file.emplace(open_beside_scene(reader.scene, table));
+    if (file && (table.has("factors") || has_sparse_matrices(*file)))
+      return read_sparse_family(reader.scene, table, *file, reader.variable, reader.draft.used);
+    for (const char* key : {"M", "C", "K", "A", "E"}) {
+      if (table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
+    }
+    if (file) {
+      const std::string fault = unknown_member(*file, {"M", "C", "K", "A", "E", "state_names"});
       if (!fault.empty()) reader.fail("file", fault);
-      p = equations_in(reader, file);
-      if (file.has("/state_names")) p.state_names = file.read_texts("/state_names");
+      p = equations_in(reader, *file, "file");
+      if (file->has("/state_names")) p.state_names = file->read_texts("/state_names");
+    } else {
+      p = equations_in(reader, in_memory->second, "file");
     }
   } catch (const Hdf5Error& error) {
     reader.fail("file", error.what() + expected_datasets);
   }
   if (p.K.empty() || (p.M.empty() && p.C.empty()))
-    reader.fail("file", reader.table.text("file") + " has no dataset /K/0, or neither /M/0 nor /C/0");
-  return p;
-}
-
-/// The family, if its file has sparse matrices or the scene gives factors of matrices; null otherwise.
-std::unique_ptr<Model> read_if_sparse(FamilyReader& reader) {
-  const bool has_factors = reader.table.has("factors");
-  if (!reader.table.has("file")) {
-    if (has_factors) reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");
-    return nullptr;
-  }
-  if (reader.scene.matrices.contains(reader.table.text("file"))) {
-    if (has_factors) reader.fail("factors", "are those of matrices in a file, not in memory");
-    return nullptr;
-  }
-  try {
-    const Hdf5File file = open_beside_scene(reader.scene, reader.table);
-    if (!has_factors && !has_sparse_matrices(file)) return nullptr;
-    return read_sparse_family(reader.scene, reader.table, file, reader.variable, reader.draft.used);
-  } catch (const Hdf5Error& error) {
-    reader.fail("file", error.what() + expected_datasets);
-  }
-}
-
-Equations read_table(FamilyReader& reader) {
-  TableReader& table = reader.table;
-  Equations p;
-  if (reader.is_first_order(table.has("M"), table.has("C"), table.has("K"), table.has("E"), table.has("A"),
-                            "E")) {
-    Polynomial E;
-    if (table.has("E")) E = reader.from_scene("E");
-    return first_order(std::move(E), reader.from_scene("A"));
-  }
-  if (table.has("M") || !table.has("C")) p.M = reader.from_scene("M");
-  p.K = reader.from_scene("K");
-  if (table.has("C")) p.C = reader.from_scene("C");
-  if (table.has("A")) p.A = reader.from_scene("A");
-  return p;
+    reader.fail("file", name + " has no dataset /K/0, or neither /M/0 nor /C/0");
+  return nullptr;
 }
 
 std::vector<Effect> effects_of_equations(const Equations& p) {
@@ -287,15 +270,8 @@ std::vector<Effect> effects_of_equations(const Equations& p) {
             {"constraints", "constraint matrix", 0, {.constraint = true}}};
   }
   return {{"M", "mass matrix, polynomial in the traced parameter", count(p.M), {.inertia = true}},
-          {"C",
-           "damping and gyroscopic matrix",
-           count(p.C),
-           {.dissipative = !all_equal_transposes(p.C.terms, -1.0),
-            .gyroscopic = !all_equal_transposes(p.C.terms, 1.0)}},
-          {"K",
-           "stiffness matrix",
-           count(p.K),
-           {.conservative = true, .circulatory = !all_equal_transposes(p.K.terms, 1.0)}},
+          {"C", "damping and gyroscopic matrix", count(p.C), damping_parts(p.C.terms)},
+          {"K", "stiffness matrix", count(p.K), stiffness_parts(p.K.terms)},
           {"A", "constraint matrix", count(p.A), {.constraint = true}}};
 }
 
@@ -303,8 +279,14 @@ std::vector<Effect> effects_of_equations(const Equations& p) {
 
 std::unique_ptr<Model> read_matrix_family(const Scene& scene, const ModelRequest& request) {
   FamilyReader reader(scene, request);
-  if (auto sparse = read_if_sparse(reader)) return sparse;
-  Equations p = reader.table.has("file") ? read_file(reader) : read_table(reader);
+  Equations p;
+  if (reader.table.has("file")) {
+    if (auto sparse = read_file(reader, p)) return sparse;
+  } else if (reader.table.has("factors")) {
+    reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");
+  } else {
+    p = equations_in(reader, reader.table, "E");
+  }
   if (reader.table.has("state_names")) p.state_names = reader.table.texts("state_names");
   reader.table.finish();
 

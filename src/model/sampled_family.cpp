@@ -5,6 +5,7 @@
 
 #include "core/transposition.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/affine_factor.hpp"
 #include "model/series_sum.hpp"
 
 namespace eigentrail {
@@ -65,13 +66,9 @@ ModelDescription with_effects(ModelDescription description, const SampledData& d
       {"M", "samples of the mass matrix", count(M), {.inertia = true}},
       {states ? "E" : "C",
        states ? "samples of the matrix of the derivatives" : "samples of the damping and gyroscopic matrix",
-       count(C),
-       {.dissipative = !all_equal_transposes(C.samples, -1.0),
-        .gyroscopic = !all_equal_transposes(C.samples, 1.0)}},
-      {states ? "A" : "K",
-       states ? "samples of the state matrix" : "samples of the stiffness matrix",
-       count(K),
-       {.conservative = true, .circulatory = !all_equal_transposes(K.samples, 1.0)}}};
+       count(C), damping_parts(C.samples)},
+      {states ? "A" : "K", states ? "samples of the state matrix" : "samples of the stiffness matrix",
+       count(K), stiffness_parts(K.samples)}};
   return description;
 }
 

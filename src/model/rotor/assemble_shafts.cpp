@@ -26,6 +26,7 @@ struct ElementPlane {
 
 void add_block(MatrixSum& to, const ElementPlane& rows, const ElementPlane& columns,
                const ElementMatrix& entries, const Expression& factor, double value) {
+  if (is_number(factor, 0.0)) return;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j)
       to.add_product(rows.coordinates[i], columns.coordinates[j], factor, entries[i][j],
@@ -70,9 +71,10 @@ SegmentMatrices matrices_of(const ShaftDraft& shaft, const ShaftSegment& segment
   const ShaftMatrices<PlaneMatrix> ends = end_matrices(piece);
   const ShaftMatrices<InnerRows> inner = shaft.refined ? inner_matrices(piece) : ShaftMatrices<InnerRows>();
   const Expression polar = Expression(2.0) * piece.second_moment();
+  const ElementMatrix rotation = element_matrix(ends.rotation, inner.rotation);
   return {element_matrix(ends.stiffness, inner.stiffness),
-          element_matrix(ends.translation + ends.rotation, inner.translation + inner.rotation),
-          element_matrix(ends.rotation, inner.rotation),
+          element_matrix(ends.translation, inner.translation) + rotation,
+          rotation,
           shaft.E * piece.area() / piece.length,
           shaft.density * piece.area() * piece.length,
           shaft.G * polar / piece.length,
@@ -93,19 +95,16 @@ void add_element(RotorDraft& rotor, const ShaftDraft& shaft, const SegmentMatric
   for (const ElementPlane* plane : {&x, &y}) {
     add_block(rotor.sum(RotorEffect::shaft_mass).M, *plane, *plane, element.inertia, 1.0, 1.0);
     add_block(rotor.sum(RotorEffect::shaft).K, *plane, *plane, element.stiffness, 1.0, 1.0);
-    if (!is_number(shaft.alpha, 0.0)) add_block(damping.C, *plane, *plane, element.inertia, shaft.alpha, 1.0);
-    if (!is_number(shaft.beta, 0.0)) add_block(damping.C, *plane, *plane, element.stiffness, shaft.beta, 1.0);
-    if (!is_number(shaft.internal, 0.0))
-      add_block(internal.C, *plane, *plane, element.stiffness, shaft.internal, 1.0);
+    add_block(damping.C, *plane, *plane, element.inertia, shaft.alpha, 1.0);
+    add_block(damping.C, *plane, *plane, element.stiffness, shaft.beta, 1.0);
+    add_block(internal.C, *plane, *plane, element.stiffness, shaft.internal, 1.0);
   }
   MatrixSum& gyroscopic = rotor.sum(RotorEffect::gyroscopic).C;
   add_block(gyroscopic, x, y, element.rotation, shaft.speed, 2.0);
   add_block(gyroscopic, y, x, element.rotation, shaft.speed, -2.0);
   const Expression circulatory = shaft.speed * shaft.internal;
-  if (!is_number(circulatory, 0.0)) {
-    add_block(internal.K, x, y, element.stiffness, circulatory, 1.0);
-    add_block(internal.K, y, x, element.stiffness, circulatory, -1.0);
-  }
+  add_block(internal.K, x, y, element.stiffness, circulatory, 1.0);
+  add_block(internal.K, y, x, element.stiffness, circulatory, -1.0);
   if (shaft.axial)
     add_rod(rotor, shaft, left, right, along_z, element.axial_stiffness, element.axial_inertia);
   if (shaft.torsion)

@@ -14,13 +14,12 @@ MatrixSum::Part& MatrixSum::part(const Expression& factor,
   return parts_.emplace_back(Part{factor, table, scale});
 }
 
-void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value) {
-  if (factor.is_constant()) {
-    value *= factor.evaluate(std::span<const double>());
-    if (value != 0.0) add(row, column, 1.0, nullptr, value);
-  } else {
-    add(row, column, factor, nullptr, value);
-  }
+void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value,
+                    const std::shared_ptr<const TabulatedFactor>& table) {
+  const bool fixed = !table && factor.is_constant();
+  if (fixed) value *= factor.evaluate(std::span<const double>());
+  if (row < 0 || column < 0 || value == 0.0) return;
+  part(fixed ? 1.0 : factor, table).entries[{row, column}] += value;
 }
 
 void MatrixSum::add_product(Eigen::Index row, Eigen::Index column, const Expression& factor,
@@ -30,12 +29,6 @@ void MatrixSum::add_product(Eigen::Index row, Eigen::Index column, const Express
   } else {
     add(row, column, factor * entry, value);
   }
-}
-
-void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& argument,
-                    const std::shared_ptr<const TabulatedFactor>& table, double value) {
-  if (row < 0 || column < 0 || value == 0.0) return;
-  part(argument, table).entries[{row, column}] += value;
 }
 
 void MatrixSum::add(const MatrixSum& other, const Expression& strength) {

@@ -13,16 +13,13 @@ namespace eigentrail {
 class MatrixSum {
  public:
   /// Adds `factor` * `value` at a row and a column; nothing where one of them is negative (a freedom that is
-  /// held) or the value is zero. Constant factors are multiplied into the value.
-  void add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value = 1.0);
-
+  /// held) or the value is zero. Constant factors are multiplied into the value. If there is a table, its
+  /// function of `factor` takes the place of the factor.
+  void add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value = 1.0,
+           const std::shared_ptr<const TabulatedFactor>& table = nullptr);
   /// Adds `factor` * `entry` * `value`; constant entries are multiplied into the value.
   void add_product(Eigen::Index row, Eigen::Index column, const Expression& factor, const Expression& entry,
                    double value);
-
-  /// Adds a tabulated function of `argument`.
-  void add(Eigen::Index row, Eigen::Index column, const Expression& argument,
-           const std::shared_ptr<const TabulatedFactor>& table, double value);
 
   /// Adds all entries of another sum, times `strength`.
   void add(const MatrixSum& other, const Expression& strength);

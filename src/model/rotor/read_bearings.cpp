@@ -31,25 +31,20 @@ MatrixSum& matrix_of(PencilSum& sum, const std::string& key) {
   return key[0] == 'k' ? sum.K : key[0] == 'c' ? sum.C : sum.M;
 }
 
-void add_entry(MatrixSum& to, Eigen::Index row, Eigen::Index column, const BearingCoefficient& one,
-               double sign) {
-  if (one.table) {
-    to.add(row, column, one.value, one.table, sign);
-  } else {
-    to.add(row, column, one.value, sign);
-  }
-}
-
 void add_bearing(PencilSum& sum, const BearingEnds& ends, const BearingCoefficients& coefficients) {
   const auto freedom = [](char axis) { return axis == 'x' ? along_x : axis == 'y' ? along_y : along_z; };
   for (const auto& [key, one] : coefficients) {
     MatrixSum& to = matrix_of(sum, key);
     const NodeFreedom row = freedom(key[1]), column = freedom(key[2]);
-    add_entry(to, (*ends.node)[row], (*ends.node)[column], one, 1.0);
+    const auto add = [&, &one = one](const NodeCoordinates& of_row, const NodeCoordinates& of_column,
+                                     double sign) {
+      to.add(of_row[row], of_column[column], one.value, sign, one.table);
+    };
+    add(*ends.node, *ends.node, 1.0);
     if (ends.other == nullptr) continue;
-    add_entry(to, (*ends.other)[row], (*ends.other)[column], one, 1.0);
-    add_entry(to, (*ends.node)[row], (*ends.other)[column], one, -1.0);
-    add_entry(to, (*ends.other)[row], (*ends.node)[column], one, -1.0);
+    add(*ends.other, *ends.other, 1.0);
+    add(*ends.node, *ends.other, -1.0);
+    add(*ends.other, *ends.node, -1.0);
   }
 }
 
@@ -61,7 +56,7 @@ TableColumns bearing_columns(const std::string& unit) {
   TableColumns columns{"the speed, or what 'over' says", unit, {}};
   for (const char* name :
        {"kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", "mxx", "mxy", "myx", "myy", "kzz", "czz"})
-    columns.known.emplace_back(name, unit_of(name));
+    columns.known.push_back({name, unit_of(name)});
   return columns;
 }
 
@@ -69,28 +64,22 @@ TableColumns bearing_columns(const std::string& unit) {
 BearingCoefficients read_coefficients(RotorDraft& rotor, TableReader& table,
                                       const CoefficientTable* columns) {
   BearingCoefficients result;
-  const auto tabulated = [&](const std::string& key) {
-    return columns == nullptr ? nullptr : columns->find(key);
-  };
-  const auto read = [&](const std::string& key) {
-    if (table.has(key) && tabulated(key) != nullptr)
+  const auto read = [&](const std::string& key) -> std::optional<BearingCoefficient> {
+    const auto column = columns == nullptr ? nullptr : columns->find(key);
+    if (table.has(key) && column != nullptr)
       table.fail(key, "the table has a column of this name already; leave one of both out");
-    if (const auto column = tabulated(key))
-      return result.emplace_back(key, BearingCoefficient{columns->argument, column}), true;
-    if (!table.has(key)) return false;
-    const Expression value = rotor.draft.read_number(table, key, unit_of(key), Range::any);
-    result.emplace_back(key, BearingCoefficient{value});
-    return true;
+    if (column != nullptr) return BearingCoefficient{columns->argument, column};
+    if (!table.has(key)) return std::nullopt;
+    return BearingCoefficient{rotor.draft.read_number(table, key, unit_of(key), Range::any)};
   };
-  for (const std::string& kind : {std::string("k"), std::string("c"), std::string("m")}) {
-    const std::size_t before = result.size();
-    const bool along_first = read(kind + "xx");
-    const std::optional<BearingCoefficient> first =
-        along_first ? std::optional(result[before].second) : std::nullopt;
-    read(kind + "xy");
-    read(kind + "yx");
-    if (!read(kind + "yy") && first) result.emplace_back(kind + "yy", *first);
-    if (kind != "m") read(kind + "zz");
+  for (const std::string kind : {"k", "c", "m"}) {
+    const std::optional<BearingCoefficient> first = read(kind + "xx");
+    for (const std::string axes : {"xx", "xy", "yx", "yy", "zz"}) {
+      if (kind == "m" && axes == "zz") continue;
+      std::optional<BearingCoefficient> one = axes == "xx" ? first : read(kind + axes);
+      if (!one && axes == "yy") one = first;
+      if (one) result.emplace_back(kind + axes, std::move(*one));
+    }
   }
   return result;
 }

@@ -73,14 +73,11 @@ ElementMatrix element_matrix(const PlaneMatrix& ends, const InnerRows& inner) {
            {inner.c, inner.d, -inner.c, inner.d, none, inner.q}}};
 }
 
-InnerRows operator+(const InnerRows& one, const InnerRows& other) {
-  return {one.a + other.a, one.b + other.b, one.c + other.c,
-          one.d + other.d, one.p + other.p, one.q + other.q};
-}
-
-PlaneMatrix operator+(const PlaneMatrix& one, const PlaneMatrix& other) {
-  return {one.a + other.a, one.b + other.b, one.c + other.c,
-          one.d + other.d, one.e + other.e, one.f + other.f};
+ElementMatrix operator+(ElementMatrix one, const ElementMatrix& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (std::size_t j = 0; j < one.size(); ++j) one[i][j] = one[i][j] + other[i][j];
+  }
+  return one;
 }
 
 Expression ShaftPiece::area() const {

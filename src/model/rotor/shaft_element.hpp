@@ -38,8 +38,7 @@ struct InnerRows {
 using ElementMatrix = std::array<std::array<Expression, 6>, 6>;
 ElementMatrix element_matrix(const PlaneMatrix& ends, const InnerRows& inner);
 
-PlaneMatrix operator+(const PlaneMatrix& one, const PlaneMatrix& other);
-InnerRows operator+(const InnerRows& one, const InnerRows& other);
+ElementMatrix operator+(ElementMatrix one, const ElementMatrix& other);
 
 /// A uniform piece of shaft, SI units.
 struct ShaftPiece {
