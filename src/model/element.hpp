@@ -79,6 +79,12 @@ constexpr int number_of_states() {
   }
 }
 
+/// A vector divided by its length.
+template <class Scalar>
+Vec3<Scalar> unit(const Vec3<Scalar>& vector) {
+  return (1.0 / vector.norm()) * vector;
+}
+
 /// Allowed values of a quantity. For a vector, positive means of nonzero length.
 enum class Range { any, non_negative, positive };
 

@@ -55,7 +55,7 @@ struct AirSection {
   std::shared_ptr<const Polar> polar = nullptr;  ///< coefficients in place of lift_slope and zero_lift
 
   template <class Self, class Visitor>
-  static void common_fields(Self& self, Visitor& visit) {
+  static void fields(Self& self, Visitor& visit) {
     visit.place("quarter_chord", self.quarter_chord, "");
     visit.direction("leading", self.leading, "");
     visit.direction("lift", self.lift, "");

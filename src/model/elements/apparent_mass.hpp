@@ -20,14 +20,6 @@ struct ApparentMass : AirSection {
   static constexpr Contribution contribution{
       .inertia = true, .conservative = true, .circulatory = true, .dissipative = true, .gyroscopic = true};
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit.place("quarter_chord", self.quarter_chord, "");
-    visit.direction("leading", self.leading, "");
-    visit.direction("lift", self.lift, "");
-    visit.numbers(self.angular_velocity, self.wind, self.width, self.chord, self.density);
-  }
-
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
     const AirFlow<Scalar> air = flow(at);

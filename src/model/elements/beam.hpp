@@ -37,7 +37,7 @@ struct BeamPoint {
   Quantity width;                                   ///< length that the point stands for, m
 
   template <class Self, class Visitor>
-  static void common_fields(Self& self, Visitor& visit) {
+  static void fields(Self& self, Visitor& visit) {
     visit.direction("slope", self.slope, "");
     for (auto& director : self.directors) visit.direction("director", director, "");
     for (auto& rate : self.rates) visit.direction("rate", rate, "");
@@ -120,7 +120,7 @@ struct BeamSection : BeamPoint {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit);
+    BeamPoint::fields(self, visit);
     visit.numbers(self.unloaded);
   }
 
@@ -147,7 +147,7 @@ struct BeamDamping : BeamPoint {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit);
+    BeamPoint::fields(self, visit);
     visit.numbers(self.time, self.roots);
   }
 

@@ -32,7 +32,7 @@ struct Bearing {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    const std::array<Vec3<Scalar>, 2> axes = {unit(at, first), unit(at, second)};
+    const std::array<Vec3<Scalar>, 2> axes = {unit(at.value(first)), unit(at.value(second))};
     const Vec3<Scalar> d = at.position(point) - at.position(seat);
     const Vec3<Scalar> rate = at.velocity(point) - at.velocity(seat);
     Vec3<Scalar> force = Vec3<Scalar>::Zero();
@@ -45,13 +45,6 @@ struct Bearing {
     }
     at.add_force(point, force);
     at.add_force(seat, -force);
-  }
-
- private:
-  template <class Scalar>
-  static Vec3<Scalar> unit(const ElementView<Scalar>& at, const std::array<Quantity, 3>& direction) {
-    const Vec3<Scalar> d = at.value(direction);
-    return (1.0 / d.norm()) * d;
   }
 };
 

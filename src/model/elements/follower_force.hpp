@@ -30,10 +30,8 @@ struct FollowerForce {
   void force(ElementView<Scalar>& at) const {
     using std::cos;
     using std::sin;
-    const Vec3<Scalar> line = at.position(to) - at.position(from);
-    const Vec3<Scalar> d = (1.0 / line.norm()) * line;
-    const Vec3<Scalar> raw_axis = at.value(axis);
-    const Vec3<Scalar> k = (1.0 / raw_axis.norm()) * raw_axis;
+    const Vec3<Scalar> d = unit<Scalar>(at.position(to) - at.position(from));
+    const Vec3<Scalar> k = unit(at.value(axis));
     const Scalar c = cos(at.value(angle));
     const Scalar s = sin(at.value(angle));
     const Vec3<Scalar> turned = c * d + s * k.cross(d) + ((1.0 - c) * k.dot(d)) * k;

@@ -27,8 +27,7 @@ struct InternalDamping {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    const Vec3<Scalar> raw = at.value(axis);
-    const Vec3<Scalar> e = (1.0 / raw.norm()) * raw;
+    const Vec3<Scalar> e = unit(at.value(axis));
     const Vec3<Scalar> d = at.position(point) - at.position(about);
     const Vec3<Scalar> rate = at.velocity(point) - at.velocity(about) - at.value(speed) * e.cross(d);
     // Only the components normal to the axis: a shaft is stiff along its axis.

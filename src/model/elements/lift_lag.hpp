@@ -31,7 +31,7 @@ struct LiftLag : AirSection {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit);
+    AirSection::fields(self, visit);
     visit.numbers(self.shares, self.rates);
   }
 

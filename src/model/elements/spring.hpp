@@ -59,8 +59,7 @@ struct GuidedSpring {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    const Vec3<Scalar> d = at.value(direction);
-    const Vec3<Scalar> u = (1.0 / d.norm()) * d;
+    const Vec3<Scalar> u = unit(at.value(direction));
     const Scalar elongation = u.dot(at.position(point)) - at.value(reference);
     at.add_force(point, (-at.value(stiffness) * elongation) * u);
   }

@@ -23,7 +23,7 @@ struct Strip : AirSection {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    common_fields(self, visit);
+    AirSection::fields(self, visit);
     visit.numbers(self.drag, self.moment);
   }
 
