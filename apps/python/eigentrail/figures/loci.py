@@ -29,8 +29,8 @@ TITLE, LEGEND_ROW = 0.22, 0.185
 class LociFigure:
     """What the figures of a trace have in common.
 
-    What they draw of modes are arrays x (n) or (n, mode) and y (n, mode) at all places of the curves, NaN where nothing is drawn:
-    `s`; of oscillations, and to the places next to them, `frequency` (in `unit`) and `damping` (percent). `damping_per_error`:
+    What they draw of modes are arrays x and y (n, mode) at all places of the curves, NaN where nothing is drawn: `s`, and the
+    parameter `p`; of oscillations, and to the places next to them, `frequency` (in `unit`) and `damping` (percent). `damping_per_error`:
     change of the latter per change of s.
     """
 
@@ -44,7 +44,8 @@ class LociFigure:
         self.factor = ANGULAR[self.unit]
         self.curves = Curves(loci)
         self.labels, self.names = mode_names(loci)
-        self.s, self.p = self.curves.s, self.curves.parameter
+        self.s = self.curves.s
+        self.p = np.broadcast_to(self.curves.parameter[:, np.newaxis], self.s.shape)
         self.modes = list(np.flatnonzero(np.isfinite(self.s).any(axis=0)))
         self.range = (float(self.p.min()), float(self.p.max()))
         shown = with_ends(oscillates(self.s), self.curves.step) & np.isfinite(self.s)
@@ -65,7 +66,7 @@ class LociFigure:
     def add_modes(self, panel, modes, x, y):
         """Lines of modes."""
         for mode in modes:
-            across, up = _column(x, mode), y[:, mode]
+            across, up = x[:, mode], y[:, mode]
             styles = self.curves.styles(mode)
             for style, dash in DASH.items():
                 line = parts(across, up, styles, style)
@@ -99,7 +100,7 @@ class LociFigure:
             for begin, end in runs(np.isfinite(y[:, mode])):
                 if end - begin < 2:
                     continue
-                p, (low, high) = self.p[begin:end], (y[begin:end, mode] + sign * half[begin:end, mode] for sign in (-1, 1))
+                p, (low, high) = self.p[begin:end, mode], (y[begin:end, mode] + sign * half[begin:end, mode] for sign in (-1, 1))
                 panel.items.append(Area(np.concatenate([p, p[::-1]]), np.concatenate([high, low[::-1]]),
                                         mode_colour(mode), 0.16, f"error of mode {mode + 1}"))
             self.explain(Area([], [], GREY, 0.3, legend=ERROR_WORDS))
@@ -109,12 +110,12 @@ class LociFigure:
         right, top = panel.points
         ends = []
         for mode in modes:
-            _, px, py = panel.seen(_column(x, mode), y[:, mode], slack=1)
+            _, px, py = panel.seen(x[:, mode], y[:, mode], slack=1)
             last = px.argmax() if len(px) else None
             if last is not None and px[last] > 0.97 * right:
                 ends.append((mode, px[last], py[last]))
             elif last is not None:
-                self._add_inner_name(panel, room, mode, _column(x, mode), y[:, mode])
+                self._add_inner_name(panel, room, mode, x[:, mode], y[:, mode])
         heights = spread([py for _, _, py in ends], HEIGHT * NAME, 0.0, top)
         for (mode, px, py), height in zip(ends, heights):
             leader = panel.at(np.array([px, right + 7]), np.array([py, height]))
@@ -137,7 +138,7 @@ class LociFigure:
     def add_numbers(self, panel, room, modes, x, y):
         """Numbers of modes on their lines, where there is room."""
         for i, mode in enumerate(modes):
-            _, px, py = panel.seen(_column(x, mode), y[:, mode])
+            _, px, py = panel.seen(x[:, mode], y[:, mode])
             if not len(px):
                 continue
             along = _lengths(px, py)
@@ -272,11 +273,6 @@ class LociFigure:
         """Adds the legend."""
         picture.legend = list(self.legend.values())
         return picture
-
-
-def _column(values, mode):
-    """Those of a mode, of an array (n, mode) or of one (n) for all."""
-    return values if values.ndim == 1 else values[:, mode]
 
 
 def _lengths(x, y):
