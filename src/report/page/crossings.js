@@ -68,7 +68,7 @@ function separationOf(crossing) {
     const wanted = operating.margin ?? apiMargin(amplificationFactor(crossing.s), !above);
     return { range, distance, wanted, below, above, inside: !below && !above, close: wanted > 0 && distance < wanted };
   });
-  return list.length ? list.reduce((a, b) => (b.wanted - b.distance > a.wanted - a.distance ? b : a)) : null;
+  return list.length ? leastOf(list, ({ distance, wanted }) => distance - wanted) : null;
 }
 
 const percent = (fraction, digits = 3) => `${number(100 * fraction, digits)} %`;

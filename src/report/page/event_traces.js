@@ -92,7 +92,7 @@ function lineEnds(lines, { x, y }) {
   const isSeen = (point) => point.x >= x[0] && point.x <= x[1] && point.y >= y[0] && point.y <= y[1];
   return grouped(lines, ({ file, mode }) => [file.index, mode]).flatMap((list) => {
     const seen = list.flatMap((line) => line.points.filter(isSeen).map((point) => ({ line, point })));
-    return seen.length ? [seen.reduce((a, b) => (b.point.x > a.point.x ? b : a))] : [];
+    return seen.length ? [leastOf(seen, ({ point }) => -point.x)] : [];
   });
 }
 

@@ -12,6 +12,8 @@ class LociFile {
   constructor(data, index, firstEvent) {
     Object.assign(this, { data, index, firstEvent, path: new Path({ ...data.curves }), colour: COLOURS[index % COLOURS.length] });
     this.reference = Number(data.attributes.reference) || 0;
+    /** Per mode bounds of the errors of the data per step, 1/s; null if there are none. */
+    this.errors = data.modes.map((mode) => (mode.errors ? float64(mode.errors) : null));
     this.whirl = data.whirl && { measure: float32(data.whirl.measure), reverse: float32(data.whirl.reverse) };
   }
   /** Operating ranges in the unit of the parameter, and the separation margin; null: that of API 684. */
@@ -22,12 +24,6 @@ class LociFile {
   }
   /** The short name of a mode, for the end of its line. */
   shortText(mode) { return [mode + 1, mainMotion(this.data.modes[mode].name)].filter(Boolean).join(": "); }
-  /** Bounds of the errors of the data of a mode per step, 1/s; null if there are none. */
-  errors(mode) {
-    const coded = this.data.modes[mode].errors;
-    this.decoded = this.decoded || {};
-    return coded ? (this.decoded[mode] = this.decoded[mode] || float64(coded)) : null;
-  }
   eventNumber(event) { return `E${this.firstEvent + this.data.events.indexOf(event) + 1}`; }
 
   /** An eigenvalue as text, without rounding. */

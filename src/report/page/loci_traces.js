@@ -105,7 +105,7 @@ function bandTraces(lines, isActive, style, axes, scale, logarithmic) {
   const shifted = (y, by) => (logarithmic ? Math.log10(Math.max(10 ** y + by, LEAST_FREQUENCY)) : y + by);
   const traces = [];
   for (const line of lines.filter(isActive)) {
-    const errors = line.file.errors(line.mode);
+    const errors = line.file.errors[line.mode];
     if (!errors || line.points.length < 2) continue;
     const above = [], below = [];
     const add = ({ x, y, place }, step) => {

@@ -98,7 +98,7 @@ class LociView extends LociCharts {
     for (const other of this.files) {
       if (other === file) continue;
       const places = other.path.placesOf(value), before = this.place[other.index];
-      this.place[other.index] = places.length ? places.reduce((a, b) => (Math.abs(b - before) < Math.abs(a - before) ? b : a)) : null;
+      this.place[other.index] = places.length ? leastOf(places, (there) => Math.abs(there - before)) : null;
     }
     this.showPlace();
   }
@@ -133,7 +133,7 @@ class LociView extends LociCharts {
   showEvent(file, event) {
     const places = file.path.placesOf(event.parameter);
     const node = event.node >= 0 && event.node < file.path.places.length ? file.path.places[event.node] : 0;
-    const place = places.length ? places.reduce((a, b) => (Math.abs(b - node) < Math.abs(a - node) ? b : a)) : node;
+    const place = places.length ? leastOf(places, (there) => Math.abs(there - node)) : node;
     this.isolate(file, event.modes, place);
   }
 
@@ -254,7 +254,7 @@ class LociView extends LociCharts {
   }
 
   errorText(file, mode, place) {
-    const errors = file.errors(mode), error = errors ? errors[file.path.stepOf(place)] : NaN;
+    const errors = file.errors[mode], error = errors ? errors[file.path.stepOf(place)] : NaN;
     return Number.isFinite(error) ? `error of the data up to ${number(error, 2)} 1/s` : "";
   }
 }

@@ -20,13 +20,7 @@ class Shapes {
     for (let i = 0; i < this.n; ++i) if (this.complex(row, mode, i).some((part) => part !== 0)) return true;
     return false;
   }
-  nearest(path, place) {
-    let best = 0;
-    this.nodes.forEach((node, row) => {
-      if (Math.abs(path.places[node] - place) < Math.abs(path.places[this.nodes[best]] - place)) best = row;
-    });
-    return best;
-  }
+  nearest(path, place) { return leastOf([...this.nodes.keys()], (row) => Math.abs(path.places[this.nodes[row]] - place)); }
 
   /** Positions of origins, axes and places, displaced by the mode with this amplitude and phase. */
   positions(row, mode, amplitude, phase) {

@@ -74,6 +74,9 @@ function axisName(axis) {
   return plotText(axis.unit && axis.unit !== "1" ? `${axis.name}, ${axis.unit}` : axis.name);
 }
 
+/** The first item of a list with the least value. */
+const leastOf = (items, value) => items.reduce((a, b) => (value(b) < value(a) ? b : a));
+
 /** Groups of items with the same key, in the order of their first items. */
 const grouped = (items, key) => {
   const groups = new Map();
