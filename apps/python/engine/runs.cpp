@@ -63,15 +63,21 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
       });
 }
 
-/// The file that `work` computes, unless it was stopped.
+/// The file that `work` computes without the interpreter lock. Where it was stopped and leaves nothing,
+/// throws what stopped it: an exception of `progress`, or KeyboardInterrupt.
 template <class Work>
 Outcome computed(const py::object& progress, Work&& work) {
   Watch watch(progress);
   Outcome outcome;
-  const std::string file = watched(watch, [&]() -> std::string { return work(watch, outcome); });
-  watch.rethrow();
-  outcome.file = py::bytes(file);
+  std::string file;
+  try {
+    file = unlocked([&]() -> std::string { return work(watch, outcome); });
+  } catch (const Stopped&) {
+    watch.rethrow();
+  }
   outcome.interrupted = watch.interrupted();
+  if (!outcome.interrupted) watch.rethrow();
+  outcome.file = py::bytes(file);
   return outcome;
 }
 

@@ -1,8 +1,5 @@
 #include "watch.hpp"
 
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <utility>
 
 namespace py = pybind11;
@@ -14,16 +11,11 @@ extern "C" int openblas_get_num_threads() __attribute__((weak));
 namespace eigentrail::python {
 namespace {
 
-constexpr auto interval = std::chrono::milliseconds(100);  ///< between two calls of `progress`
+/// Between two calls of `progress`, and two looks for signals.
+constexpr auto interval = std::chrono::milliseconds(100);
 
-volatile std::sig_atomic_t noted = 0;  // a signal handler may write only to a variable of this type
-
-extern "C" void note_interrupt(int) {
-  noted = 1;
-}
-
-bool in_main_thread() {
-  return syscall(SYS_gettid) == getpid();
+void handle_signals() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 /// Computations that run now. They share the number of threads within BLAS, which is one for all of the
@@ -34,42 +26,39 @@ int threads_before = 0;
 
 }  // namespace
 
-Interruption::Interruption() {
-  if (!in_main_thread()) return;
-  noted = 0;
-  struct sigaction action {};
-  action.sa_handler = note_interrupt;
-  action.sa_flags = SA_RESTART;
-  installed_ = sigaction(SIGINT, &action, &before_) == 0;
-}
-
-Interruption::~Interruption() {
-  if (installed_) sigaction(SIGINT, &before_, nullptr);
-}
-
-Interruption::operator bool() const {
-  return installed_ && noted != 0;
-}
-
 Watch::Watch(py::object progress) : progress_(std::move(progress)) {}
 
 bool Watch::operator()(double share, long count) {
   const std::lock_guard lock(mutex_);
-  if (raised_ || interruption_) return false;
-  if (progress_.is_none() || Clock::now() < next_) return true;
+  const Clock::time_point now = Clock::now();
+  if (!raised_ && std::this_thread::get_id() == thread_ && now >= next_look_) {
+    next_look_ = now + interval;
+    call(handle_signals);
+  }
+  if (!raised_ && !progress_.is_none() && now >= next_progress_) {
+    next_progress_ = now + interval;
+    call([&] { progress_(share, count); });
+  }
+  return !raised_;
+}
+
+void Watch::call(const std::function<void()>& python) {
   const py::gil_scoped_acquire acquired;
   try {
-    progress_(share, count);
-  } catch (py::error_already_set&) {
+    python();
+  } catch (const py::error_already_set& error) {
     raised_ = std::current_exception();
-    return false;
+    interrupted_ = error.matches(PyExc_KeyboardInterrupt);
   }
-  next_ = Clock::now() + interval;
-  return true;
 }
 
 void Watch::require(double share, long count) {
   if (!(*this)(share, count)) throw Stopped();
+}
+
+bool Watch::interrupted() {
+  if (!raised_) call(handle_signals);
+  return interrupted_;
 }
 
 void Watch::rethrow() const {

@@ -4,34 +4,20 @@
 
 #include <pybind11/pybind11.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <exception>
+#include <functional>
 #include <mutex>
+#include <thread>
 
 namespace eigentrail::python {
 
-/// Ctrl-C during the lifetime of an object is noted instead of handled by Python, which could not handle it
-/// before the computation ends. Only in the main thread; elsewhere Python's own handler stays.
-class Interruption {
- public:
-  Interruption();
-  ~Interruption();
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-  explicit operator bool() const;
-
- private:
-  bool installed_ = false;
-  struct sigaction before_ {};
-};
-
-/// Called from any thread without the interpreter lock.
+/// Called from any thread without the interpreter lock. Signals are handled in the thread that has made it,
+/// if that is the main thread of Python.
 class Watch {
  public:
   /// `progress` is None or a function of the share that is done, 0 to 1, and a count. It is called ten times
-  /// a second at most; an exception that it raises ends the computation.
+  /// a second at most; an exception that it or the handler of a signal raises ends the computation.
   explicit Watch(pybind11::object progress);
 
   /// Whether the computation shall go on.
@@ -39,18 +25,23 @@ class Watch {
   /// The same; throws Stopped if it shall not.
   void require(double share, long count);
 
-  bool interrupted() const { return static_cast<bool>(interruption_); }
-  /// Rethrows what `progress` raised. With the interpreter lock.
+  /// Whether Ctrl-C has ended the computation, or has come since its last point. With the interpreter lock.
+  bool interrupted();
+  /// Rethrows what ended it. With the interpreter lock.
   void rethrow() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  Interruption interruption_;
+  /// Calls it with the interpreter lock, and notes what it raises.
+  void call(const std::function<void()>& python);
+
+  std::thread::id thread_ = std::this_thread::get_id();
   pybind11::object progress_;
   std::mutex mutex_;
-  Clock::time_point next_ = Clock::now();
+  Clock::time_point next_look_ = Clock::now(), next_progress_ = next_look_;
   std::exception_ptr raised_;
+  bool interrupted_ = false;
 };
 
 /// Thrown through a computation that cannot be asked to stop, to end it.
@@ -74,19 +65,6 @@ auto unlocked(Work&& work) {
   const OneThreadWithinBlas blas;
   const pybind11::gil_scoped_release released;
   return work();
-}
-
-/// Runs `work`, which `watch` watches, without the interpreter lock. Where it was stopped, throws what
-/// stopped it: an exception of `progress`, or KeyboardInterrupt.
-template <class Work>
-auto watched(const Watch& watch, Work&& work) {
-  try {
-    return unlocked(work);
-  } catch (const Stopped&) {
-    watch.rethrow();
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw pybind11::error_already_set();
-  }
 }
 
 }  // namespace eigentrail::python
