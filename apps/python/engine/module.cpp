@@ -4,7 +4,6 @@
 #include <regex>
 
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/version.hpp"
 #include "eigentrail/model/function_family.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "engine.hpp"
@@ -41,7 +40,6 @@ void raise_as(const char* name) {
 
 PYBIND11_MODULE(_engine, module) {
   module.doc() = "The compiled part of eigentrail.";
-  module.attr("version") = eigentrail::version();
   raise_as<eigentrail::InputError>("SceneError");
   raise_as<eigentrail::NotResolved>("NotResolved");
   raise_as<eigentrail::NotProjected>("NotProjected");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/texts.hpp"
 #include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/model/build.hpp"
 #include "eigentrail/model/function_family.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 /// A function p -> matrices that Python gives instead of the tables of the scene.
 struct FunctionSource {
-  py::function call;              ///< p -> dict of M, C, K or E, A, which are Doubles
+  py::function call;              ///< p -> dict of M, C, K or E, A
   FunctionFamilyOptions options;  ///< without the parameter and its range
 };
 
@@ -34,15 +35,9 @@ std::vector<std::string> remarks_on(const Scene& scene, const Model& model) {
   return remarks;
 }
 
-/// The matrices of a dictionary. Entries are copied once.
-MatricesAt matrices_of(const std::map<std::string, Doubles>& returned) {
-  MatricesAt result;
-  const std::map<std::string, Matrix*> known{
-      {"M", &result.M}, {"C", &result.C}, {"K", &result.K}, {"E", &result.E}, {"A", &result.A}};
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  for (const auto& [key, entries] : returned)
-    *known.at(key) = Eigen::Map<const Rows>(entries.data(), entries.shape(0), entries.shape(1));
-  return result;
+MatricesAt matrices_of(std::map<std::string, Matrix> given) {
+  return {std::move(given["M"]), std::move(given["C"]), std::move(given["K"]), std::move(given["E"]),
+          std::move(given["A"])};
 }
 
 TraceSetup prepare(const Scene& scene, const Options& options, const std::optional<FunctionSource>& source,
@@ -53,7 +48,7 @@ TraceSetup prepare(const Scene& scene, const Options& options, const std::option
         const auto call = [&, calls = 0](double p) mutable {
           watch.require(0.0, calls++);
           const py::gil_scoped_acquire acquired;
-          return matrices_of(source->call(p).cast<std::map<std::string, Doubles>>());
+          return matrices_of(source->call(p).cast<std::map<std::string, Matrix>>());
         };
         FunctionFamilyOptions family = source->options;
         family.parameter = trace.parameter;
@@ -133,9 +128,8 @@ Outcome run_accuracy(const Scene& scene, const Options& options, const std::vect
                      const std::vector<int>& orders, const std::vector<int>& grids, int samples, int repeat,
                      const py::object& progress) {
   const StudyOptions study_options{tolerances, orders, grids, samples, repeat};
-  std::string faults;
-  for (const std::string& fault : find_faults(study_options)) faults += (faults.empty() ? "" : "; ") + fault;
-  if (!faults.empty()) throw InputError(faults);
+  const std::vector<std::string> faults = find_faults(study_options);
+  if (!faults.empty()) throw InputError(joined(faults, "; "));
   return computed(progress, [&](Watch& watch, Outcome& outcome) -> std::string {
     TraceSetup setup = prepare_trace(scene, options);
     outcome.remarks = remarks_on(setup.scene, *setup.model);
