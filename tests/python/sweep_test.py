@@ -27,14 +27,6 @@ class Sweeps(unittest.TestCase):
             run = swept.eigentrail.runs[(drag,)]
             self.assertTrue(run.assign_attrs(seconds=0).identical(alone.assign_attrs(seconds=0)))  # seconds: the time it took
 
-    def test_what_is_read_by_names_is_what_the_file_holds(self):
-        image = et.runs.trace_file(BLADE_SCENE).image
-        (datasets, attributes), (whole, of_file) = et.files.read(image, names=["events", "eigenvalue", "none"]), et.files.read(image)
-        self.assertEqual(set(datasets), {"events", "eigenvalue", "omega"})
-        self.assertEqual(attributes, of_file)
-        for name, (array, _) in datasets.items():
-            np.testing.assert_array_equal(array, whole[name][0])
-
     def test_traces_of_different_lengths_are_nan_behind_their_ends(self):
         """The equilibrium of the second one ends in a fold at p = 0.5."""
         scene = PUSHED_PENDULUM.replace("p = 0.0", "p = 0.0\npush = 1.0").replace('"p*g"', '"p*push*g"')

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import builtins
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, Union
 
 import numpy as np
@@ -52,7 +52,7 @@ def open(path: Union[str, os.PathLike[str]]) -> xarray.Dataset:
 
 def from_bytes(image: bytes, path: str = "result") -> xarray.Dataset:
     """The same for the bytes of a file."""
-    contents = read(image, path)
+    contents = engine().read_file(image, path)
     kind = _checked_format(path, contents[1])
     try:
         data = _dataset(contents)
@@ -64,11 +64,6 @@ def from_bytes(image: bytes, path: str = "result") -> xarray.Dataset:
     data = data.set_coords([name for name in COORDINATES[kind] if name in data])
     data.encoding[IMAGE] = image
     return data
-
-
-def read(image: bytes, path: str = "result", names: Sequence[str] = ()) -> Contents:
-    """The datasets of a file, and its attributes. `names`: only those of them that it has, and the traced parameter."""
-    return engine().read_file(image, path, names)
 
 
 def save(data: xarray.Dataset, path: Union[str, os.PathLike[str]], overwrite: bool = False) -> None:

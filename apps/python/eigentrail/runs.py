@@ -62,7 +62,6 @@ class Run(NamedTuple):
     """A trace as the engine leaves it."""
 
     image: bytes  # of the loci file
-    message: str  # why it ended early; empty if it did not
     remarks: list[str]
     attached: Attached
 
@@ -85,7 +84,7 @@ def trace_file(scene: Source, *, tolerance: Optional[float] = None, modes: Any =
         remarks.append("interrupted: the Dataset has the points up to here")
     elif outcome.message:
         remarks.append(f"ended early: {outcome.message}")
-    return Run(outcome.file, outcome.message, remarks, given.attached)
+    return Run(outcome.file, remarks, given.attached)
 
 
 @checked

@@ -17,17 +17,14 @@ from .errors import SceneError, TraceError
 from .given import Source, within
 from .later import xarray
 from .progress import Progress, bar
-from .files import read
 from .runs import Run, trace_file
-from .selection import OF_PATH, columns_of, evaluated, path_of
+from .selection import columns_of, evaluated, path_of
 
 RUNS = "eigentrail_runs"  # key of a Dataset's encoding: the Datasets of the single traces
 # Weight of the distance of loci beside modal assurance, both from 0 to 1: it decides where shapes are alike to a percent.
 TIE = 0.01
 COLUMNS = ("eigenvalue", "natural_frequency", "damped_frequency", "damping_ratio", "certified")
 NO_EIGENVALUE = complex(np.nan, np.nan)
-# What is read of a trace.
-DATASETS = (*OF_PATH, "mode_shape", "events", "event_parameter")
 
 
 @checked
@@ -69,22 +66,22 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
 
 
 class _Traced:
-    """A trace of a sweep, of which DATASETS are read."""
+    """What a sweep needs of a trace."""
 
     def __init__(self, run: Run):
+        loci = run.loci()
+        parameter = loci.attrs["parameter"]
         self.run, self.remarks = run, run.remarks
-        contents, attrs = read(run.image, names=DATASETS)
-        self.arrays = {name: array for name, (array, _) in contents.items()}
-        self.path, self._dense = self.arrays[attrs["parameter"]], path_of(self.arrays, attrs["parameter"])
-        self.status, self.message = str(attrs["status"]), str(attrs.get("message", ""))
-        flutter = [line.startswith("flutter,") for line in self.arrays["events"]]
-        self.flutter = float(self.arrays["event_parameter"][flutter.index(True)]) if any(flutter) else np.nan
-        self.n_modes = self.arrays["eigenvalue"].shape[1]
+        self.path, self._dense = loci[parameter].values, path_of(loci, parameter)
+        self._certified, self.shapes = loci.certified.values, loci.mode_shape.values[0]
+        self.status, self.message = str(loci.attrs["status"]), str(loci.attrs.get("message", ""))
+        self.flutter = next(iter(loci.event_parameter.values[loci.event_kind.values == "flutter"]), np.nan)
+        self.n_modes = loci.sizes["mode"]
 
     def at(self, values: Any, n_modes: int) -> dict[str, Any]:
         """COLUMNS at values of the traced parameter, (value, mode) each: NaN where it has not been, at the first of several
         places with a value."""
-        _, s, certified = evaluated(self._dense, self.arrays["certified"], values)
+        _, s, certified = evaluated(self._dense, self._certified, values)
         beyond = [(0, 0), (0, n_modes - self.n_modes)]
         return columns_of(np.pad(s[:, 0], beyond, constant_values=NO_EIGENVALUE),
                           np.pad(certified[:, 0], beyond, constant_values=-1))
@@ -93,7 +90,7 @@ class _Traced:
 class _Failed:
     """A trace that could not begin."""
 
-    status, flutter, arrays, remarks = "not traced", np.nan, None, ()
+    status, flutter, shapes, remarks = "not traced", np.nan, None, ()
 
     def __init__(self, error: TraceError):
         self.run, self.message = error, str(error)
@@ -190,9 +187,9 @@ def _in_order(shape: tuple[int, ...], runs: Sequence[Any], parts: Sequence[Any],
     for i, run in enumerate(runs):
         before = _before(i, shape)
         order.append(np.arange(n_modes))
-        if before is not None and run.arrays and runs[before].arrays:
+        if before is not None and run.shapes is not None and runs[before].shapes is not None:
             there, here = parts[before]["eigenvalue"][:, order[before]], parts[i]["eigenvalue"]
-            unlike = 1.0 - _assurance(runs[before], run, n_modes)[order[before]]
+            unlike = 1.0 - _assurance(runs[before].shapes, run.shapes, n_modes)[order[before]]
             order[i] = linear_sum_assignment(unlike + TIE * _distance(there, here))[1]
     return [{name: column[:, order[i]] for name, column in part.items()} for i, part in enumerate(parts)]
 
@@ -203,10 +200,9 @@ def _before(i: int, shape: tuple[int, ...]) -> Optional[int]:
     return None if axis is None else i - int(np.prod(shape[axis + 1:]))
 
 
-def _assurance(before: _Traced, run: _Traced, n_modes: int) -> Any:
-    """Modal assurance of the modes where the traces begin, n_modes x n_modes; one half for modes that come later."""
+def _assurance(there: Any, here: Any, n_modes: int) -> Any:
+    """Modal assurance of the modes where two traces begin, n_modes x n_modes; one half for modes that come later."""
     result = np.full((n_modes, n_modes), 0.5)
-    there, here = before.arrays["mode_shape"][0], run.arrays["mode_shape"][0]
     if there.shape[-1] != here.shape[-1]:
         return result
     square = np.abs(there.conj() @ here.T) ** 2

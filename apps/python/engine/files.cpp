@@ -67,11 +67,9 @@ py::dict as_python(const std::map<std::string, StoredArray>& attributes) {
 }
 
 /// The datasets of a file, {name: (array, attributes)}, and its attributes. The attribute DIMENSION_LIST of a
-/// dataset has the names of its dimensions. `names`: only those of them that the file has, and the traced
-/// parameter; empty: all. Other threads of Python run while the file is read. Throws InputError if the file,
-/// called `called`, is no HDF5 file or damaged.
-std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called,
-                                        std::vector<std::string> names) {
+/// dataset has the names of its dimensions. Other threads of Python run while the file is read. Throws
+/// InputError if the file, called `called`, is no HDF5 file or damaged.
+std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::string& called) {
   const std::string_view bytes = image;
   std::vector<std::tuple<std::string, StoredArray, std::map<std::string, StoredArray>>> datasets;
   std::map<std::string, StoredArray> attributes;
@@ -79,13 +77,7 @@ std::pair<py::dict, py::dict> read_file(const py::bytes& image, const std::strin
     const py::gil_scoped_release released;
     const Hdf5File file = Hdf5File::from_image(called, bytes);
     attributes = file.attributes("/");
-    if (names.empty()) {
-      names = file.members("/");
-    } else {
-      names.push_back(file.text_attribute("parameter"));
-      std::erase_if(names, [&](const std::string& name) { return !file.has(name); });
-    }
-    for (const std::string& name : names) {
+    for (const std::string& name : file.members("/")) {
       if (std::optional<StoredArray> array = file.read(name))
         datasets.emplace_back(name, std::move(*array), file.attributes(name));
     }
