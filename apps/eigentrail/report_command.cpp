@@ -25,7 +25,9 @@ void check_ending(const std::string& output) {
 int run_report(ReportArguments& arguments) {
   OutputChoice& output = arguments.output;
   output.name_like(arguments.files.front(), ".html");
-  check_new_output(output.path, output.force, {"report of eigentrail", is_report});
+  check_new_output(output.path, output.force, {"report of eigentrail", [](const std::string& path) {
+                                                 return begins_with(path, report_signature);
+                                               }});
   check_ending(output.path);
   write_durably(output.path, {report_page(arguments.files)}, output.existing());
   if (!output.quiet) {

@@ -83,11 +83,6 @@ class ModeStretch {
       const HermiteInterpolant functions(step.length, block->left, block->right);
       steps_.push_back({block, functions, hidden_beside(functions, 0.0), hidden_beside(functions, 1.0)});
     }
-    for (std::size_t i = 0; i < steps_.size(); ++i) {
-      Step& step = steps_[i];
-      if (step.left > 0.0) step.at_left = value(i, step.left);
-      if (step.right > 0.0) step.at_right = value(i, 1.0 - step.right);
-    }
   }
 
   std::size_t n_steps() const { return steps_.size(); }
@@ -95,12 +90,11 @@ class ModeStretch {
   /// The eigenvalue at t in [0, 1] on step i of the stretch, equal to the output of `eigentrail eval`. Beside
   /// a point where many are one, as far as rounding hides them, a chord.
   Complex operator()(std::size_t i, double t) const {
-    const Step& step = steps_[i];
-    const auto chord = [&](double end, double share, Complex to) {
-      return value(i, end) + share * (to - value(i, end));
+    const auto chord = [&](double end, double border) {
+      return value(i, end) + (t - end) / (border - end) * (value(i, border) - value(i, end));
     };
-    if (t < step.left) return chord(0.0, t / step.left, step.at_left);
-    if (1.0 - t < step.right) return chord(1.0, (1.0 - t) / step.right, step.at_right);
+    if (t < steps_[i].left) return chord(0.0, steps_[i].left);
+    if (1.0 - t < steps_[i].right) return chord(1.0, 1.0 - steps_[i].right);
     return value(i, t);
   }
 
@@ -124,13 +118,11 @@ class ModeStretch {
                                loci_.eigenvalues.row(node + 1).transpose(), t, roots_.used)[mode_];
   }
 
-  /// Where rounding hides the eigenvalues: shares of the step, from its left and to its right end, and the
-  /// eigenvalue at their borders.
+  /// `left`, `right`: shares of the step at its ends in which rounding hides the eigenvalues.
   struct Step {
     const DenseBlock* block;
     HermiteInterpolant functions;
     double left, right;
-    Complex at_left = {}, at_right = {};
   };
 
   const LociFile& loci_;

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
-#include <sstream>
 
+#include "core/texts.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -38,8 +38,7 @@ Json modes_data(const LociFile& loci) {
 /// file does not have are left out.
 Json mode_numbers(const std::string& text, std::size_t n_modes) {
   Json list = Json::array();
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ';');) {
+  for (const std::string& part : split(text, ';')) {
     const int number = std::atoi(part.c_str());
     if (number > 0 && static_cast<std::size_t>(number) <= n_modes) list.push_back(number - 1);
   }

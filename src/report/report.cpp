@@ -1,7 +1,5 @@
 #include "eigentrail/report/report.hpp"
 
-#include <array>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,12 +15,9 @@ namespace eigentrail {
 namespace {
 
 constexpr std::string_view data_mark = "<!-- data -->";
-constexpr std::string_view signature = "<!DOCTYPE html>\n<!-- eigentrail report -->";
 
 std::string_view page() {
-  return {eigentrail_report_page,
-          // cppcheck-suppress comparePointers ; both point into the same array
-          static_cast<std::size_t>(eigentrail_report_page_end - eigentrail_report_page)};
+  return {eigentrail_report_page, eigentrail_report_page_end};
 }
 
 Json page_data(const std::vector<std::string>& files) {
@@ -39,7 +34,7 @@ Json page_data(const std::vector<std::string>& files) {
 std::string report_page(const std::vector<std::string>& files) {
   const std::string data = page_json(page_data(files));
   const std::size_t mark = page().find(data_mark);
-  if (mark == std::string_view::npos || !page().starts_with(signature))
+  if (mark == std::string_view::npos || !page().starts_with(report_signature))
     throw std::logic_error("report_page: the page in this program is damaged; build it again");
   return std::string(page()).replace(mark, data_mark.size(), data);
 }
@@ -50,13 +45,6 @@ std::string drawing_data(std::string_view loci_file, std::size_t node) {
     throw InputError(loci.path + ": holds " + std::to_string(loci.n_nodes()) + " points, found number " +
                      std::to_string(node));
   return page_json({{"excitation", excitation_data(loci)}, {"geometry", geometry_data(loci, {node})}});
-}
-
-bool is_report(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, signature.size()> begin{};
-  file.read(begin.data(), begin.size());
-  return std::string_view(begin.data(), static_cast<std::size_t>(file.gcount())) == signature;
 }
 
 }  // namespace eigentrail

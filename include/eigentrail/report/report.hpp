@@ -18,7 +18,7 @@ std::string report_page(const std::vector<std::string>& files);
 /// the file. Throws InputError if it is no loci file or has no such point.
 std::string drawing_data(std::string_view loci_file, std::size_t node);
 
-/// Whether a file is such a page.
-bool is_report(const std::string& path);
+/// How every such page begins.
+inline constexpr std::string_view report_signature = "<!DOCTYPE html>\n<!-- eigentrail report -->";
 
 }  // namespace eigentrail
