@@ -163,24 +163,16 @@ class ArchiveWriter {
     write(static_cast<std::uint8_t>(value.index()));
     std::visit([this](const auto& item) { write(item); }, value);
   }
-  template <class Scalar, int Rows>
-  void write(const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& matrix) {
-    write_dense(matrix);
+  /// The shape of a matrix whose type does not have it, and the entries.
+  template <class Scalar, int rows, int columns>
+  void write(const Eigen::Matrix<Scalar, rows, columns>& matrix) {
+    if constexpr (rows == Eigen::Dynamic || columns == Eigen::Dynamic)
+      (*this)(static_cast<std::int64_t>(matrix.rows()), static_cast<std::int64_t>(matrix.cols()));
+    append(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
   }
-  template <class Scalar>
-  void write(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
-    write_dense(vector);
-  }
-  template <class Dense>
-  void write_dense(const Dense& matrix) {
-    (*this)(static_cast<std::int64_t>(matrix.rows()), static_cast<std::int64_t>(matrix.cols()));
-    append(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(typename Dense::Scalar));
-  }
-  void write(const Eigen::Matrix3d& matrix) { append(matrix.data(), 9 * sizeof(double)); }
-  void write(const Eigen::Vector2d& vector) { append(vector.data(), 2 * sizeof(double)); }
   void write(const SystemMatrix& matrix) {
     write(matrix.is_sparse());
-    if (!matrix.is_sparse()) return write_dense(matrix.dense());
+    if (!matrix.is_sparse()) return write(matrix.dense());
     const SparseMatrix& sparse = matrix.sparse();
     (*this)(static_cast<std::int64_t>(sparse.rows()), static_cast<std::int64_t>(sparse.cols()));
     count(static_cast<std::size_t>(sparse.nonZeros()));
@@ -300,15 +292,6 @@ class ArchiveReader {
     std::uint8_t at = 0;
     ((at++ == index ? read(value.template emplace<T>()) : void()), ...);
   }
-  template <class Scalar, int Rows>
-  void read(Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& matrix) {
-    read_dense(matrix);
-  }
-  template <class Scalar>
-  void read(Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
-    read_dense(vector);
-  }
-
   std::pair<std::int64_t, std::int64_t> read_shape() {
     std::pair<std::int64_t, std::int64_t> shape;
     read(shape);
@@ -317,25 +300,23 @@ class ArchiveReader {
       throw ArchiveError("no shape of a matrix");
     return shape;
   }
-  template <class Dense>
-  void read_dense(Dense& matrix) {
-    using Scalar = typename Dense::Scalar;
-    const auto [rows, columns] = read_shape();
-    if (Dense::ColsAtCompileTime == 1 && columns != 1) throw ArchiveError("no vector");
-    if (static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) >
-        left_.size() / sizeof(Scalar))
-      throw ArchiveError("a matrix that exceeds the bytes that are left");
-    matrix.resize(rows, columns);
+  template <class Scalar, int rows, int columns>
+  void read(Eigen::Matrix<Scalar, rows, columns>& matrix) {
+    if constexpr (rows == Eigen::Dynamic || columns == Eigen::Dynamic) {
+      const auto [m, n] = read_shape();
+      if (columns == 1 && n != 1) throw ArchiveError("no vector");
+      if (static_cast<std::uint64_t>(m) * static_cast<std::uint64_t>(n) > left_.size() / sizeof(Scalar))
+        throw ArchiveError("a matrix that exceeds the bytes that are left");
+      matrix.resize(m, n);
+    }
     take(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
   }
-  void read(Eigen::Matrix3d& matrix) { take(matrix.data(), 9 * sizeof(double)); }
-  void read(Eigen::Vector2d& vector) { take(vector.data(), 2 * sizeof(double)); }
   void read(SystemMatrix& matrix) {
     bool is_sparse = false;
     read(is_sparse);
     if (!is_sparse) {
       Matrix dense;
-      read_dense(dense);
+      read(dense);
       matrix = std::move(dense);
       return;
     }
