@@ -269,6 +269,28 @@ struct SparseFactors::Implementation {
     lu->order_symmetrically(kind == SparseKind::near_symmetric);
     return lu->factor(pattern, same, std::move(values));
   }
+
+  Matrix solve(bool transposed, const Matrix& B) const {
+    if (cholesky) return cholesky->solve(B);
+    Matrix X(B.rows(), B.cols());
+    for (Eigen::Index j = 0; j < B.cols(); ++j)
+      lu->solve(pattern, transposed, B.col(j).data(), X.col(j).data());
+    return X;
+  }
+
+  /// With real factors both parts of b are solved for, with complex ones b itself.
+  ComplexVector solve(bool transposed, const ComplexVector& b) const {
+    if (lu && lu->is_complex()) {
+      ComplexVector x(b.size());
+      lu->solve(pattern, transposed, reinterpret_cast<const double*>(b.data()),  // NOLINT: packed pairs
+                reinterpret_cast<double*>(x.data()));                            // NOLINT
+      return x;
+    }
+    Matrix parts(b.size(), 2);
+    parts << b.real(), b.imag();
+    const Matrix x = solve(transposed, parts);
+    return x.col(0).cast<Complex>() + Complex(0.0, 1.0) * x.col(1).cast<Complex>();
+  }
 };
 
 SparseFactors::SparseFactors() : implementation_(std::make_unique<Implementation>()) {}
@@ -295,54 +317,20 @@ bool SparseFactors::factor(const ComplexSparseMatrix& A) {
   return implementation_->factor_lu(same, true, {values, values + 2 * A.nonZeros()});
 }
 
-namespace {
-
-Matrix solve_real(const Lu& lu, const Pattern& pattern, bool transposed, const Matrix& B) {
-  Matrix X(B.rows(), B.cols());
-  for (Eigen::Index j = 0; j < B.cols(); ++j) lu.solve(pattern, transposed, B.col(j).data(), X.col(j).data());
-  return X;
-}
-
-}  // namespace
-
 Matrix SparseFactors::solve(const Matrix& B) const {
-  const Implementation& i = *implementation_;
-  return i.cholesky ? i.cholesky->solve(B) : solve_real(*i.lu, i.pattern, false, B);
+  return implementation_->solve(false, B);
 }
 
 Matrix SparseFactors::solve_transposed(const Matrix& B) const {
-  const Implementation& i = *implementation_;
-  return i.cholesky ? i.cholesky->solve(B) : solve_real(*i.lu, i.pattern, true, B);
+  return implementation_->solve(true, B);
 }
-
-namespace {
-
-/// Real factors: both parts of b are solved for; complex ones: b itself.
-template <class SolveReal>
-ComplexVector solve_complex(const Lu* lu, const Pattern& pattern, bool transposed, const ComplexVector& b,
-                            SolveReal&& solve_real_parts) {
-  if (lu != nullptr && lu->is_complex()) {
-    ComplexVector x(b.size());
-    lu->solve(pattern, transposed, reinterpret_cast<const double*>(b.data()),  // NOLINT: packed pairs
-              reinterpret_cast<double*>(x.data()));                            // NOLINT
-    return x;
-  }
-  Matrix parts(b.size(), 2);
-  parts << b.real(), b.imag();
-  const Matrix x = solve_real_parts(parts);
-  return x.col(0).cast<Complex>() + Complex(0.0, 1.0) * x.col(1).cast<Complex>();
-}
-
-}  // namespace
 
 ComplexVector SparseFactors::solve(const ComplexVector& b) const {
-  return solve_complex(implementation_->lu.get(), implementation_->pattern, false, b,
-                       [this](const Matrix& B) { return solve(B); });
+  return implementation_->solve(false, b);
 }
 
 ComplexVector SparseFactors::solve_transposed(const ComplexVector& b) const {
-  return solve_complex(implementation_->lu.get(), implementation_->pattern, true, b,
-                       [this](const Matrix& B) { return solve_transposed(B); });
+  return implementation_->solve(true, b);
 }
 
 bool SparseFactors::is_complex() const {
