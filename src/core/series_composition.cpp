@@ -9,17 +9,9 @@ Vector reversion(const Vector& sigma) {
   for (Eigen::Index k = 2; k < count; ++k) {
     // In coefficient k of sigma(h(u)) = u the unknown h_k appears only in sigma_1 h_k. The sum is that
     // coefficient with h_k = 0; h_k cancels it.
-    Vector power = Vector::Zero(count);
-    power[0] = 1.0;
+    const Matrix powers = power_table(h);
     double sum = 0.0;
-    for (Eigen::Index j = 1; j <= k; ++j) {
-      Vector next = Vector::Zero(count);
-      for (Eigen::Index a = 0; a < count; ++a) {
-        for (Eigen::Index b = 0; a + b < count; ++b) next[a + b] += power[a] * h[b];
-      }
-      power = next;
-      sum += sigma[j] * power[k];
-    }
+    for (Eigen::Index j = 1; j <= k; ++j) sum += sigma[j] * powers(j, k);
     h[k] = -sum / sigma[1];
   }
   return h;

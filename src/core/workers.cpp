@@ -1,12 +1,12 @@
 #include "eigentrail/core/workers.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <mutex>
 #include <numeric>
 #include <thread>
 
 #include "core/parallel.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 
 namespace eigentrail {
@@ -47,17 +47,15 @@ std::vector<std::size_t> Part::pieces(std::size_t n) const {
 }
 
 Part read_part(const std::string& text) {
-  Part part{0, 0};
-  const char* end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, part.number);
-  const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
-  const auto count = slash ? std::from_chars(number.ptr + 1, end, part.count) : number;
-  if (!slash || count.ec != std::errc() || count.ptr != end)
+  const std::vector<std::string> words = split(text, '/');
+  const auto number = parsed_number<int>(words[0]);
+  const auto count = parsed_number<int>(words.size() == 2 ? words[1] : "");
+  if (!number || !count)
     throw InputError("--part: expected i/N, such as 2/5 for the second of five parts; found '" + text + "'");
-  if (part.count < 1 || part.count > most_parts || part.number < 1 || part.number > part.count)
+  if (*count < 1 || *count > most_parts || *number < 1 || *number > *count)
     throw InputError("--part: expected i/N with 1 <= i <= N <= " + std::to_string(most_parts) + "; found '" +
                      text + "'");
-  return part;
+  return {*number, *count};
 }
 
 }  // namespace eigentrail
