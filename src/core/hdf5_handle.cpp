@@ -36,4 +36,12 @@ Handle memory_type(ElementType type) {
           "make a type of numbers"};
 }
 
+Shape shape_of(hid_t space, const std::string& name) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) fail_hdf5("read the shape of " + name);
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
+  return {dims.begin(), dims.end()};
+}
+
 }  // namespace eigentrail

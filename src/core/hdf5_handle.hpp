@@ -42,4 +42,7 @@ inline void check(herr_t code, const std::string& action) {
 /// The HDF5 type of an element in memory.
 Handle memory_type(ElementType type);
 
+/// The extents of a space; `name` is that of its dataset or attribute.
+Shape shape_of(hid_t space, const std::string& name);
+
 }  // namespace eigentrail

@@ -20,14 +20,6 @@ Handle opened(const std::string& path_or_bytes, bool is_image) {
           "open it: it is no HDF5 file, or damaged"};
 }
 
-Shape shape_of(hid_t space, const std::string& name) {
-  const int rank = H5Sget_simple_extent_ndims(space);
-  if (rank < 0) fail_hdf5("read the shape of " + name);
-  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
-  check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + name);
-  return {dims.begin(), dims.end()};
-}
-
 /// Nothing for a type that eigentrail does not write.
 std::optional<ElementType> type_of(hid_t stored) {
   const H5T_class_t kind = H5Tget_class(stored);
