@@ -20,15 +20,21 @@ void require_plain_file(const std::string& path) {
                                : ": is not a plain file; pipes and devices are not read"));
 }
 
+std::string bytes_of_file(const std::string& path) {
+  require_plain_file(path);
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream) throw InputError(path + ": cannot be read");
+  return bytes;
+}
+
 std::string read_text(const std::string& path, std::uintmax_t most_bytes) {
   require_plain_file(path);
   const std::uintmax_t size = std::filesystem::file_size(path);
   if (size > most_bytes)
     throw InputError(path + ": is " + std::to_string(size) + " bytes; expected a text of at most " +
                      std::to_string(most_bytes));
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw InputError(path + ": cannot be read");
+  std::string text = bytes_of_file(path);
   if (text.find('\0') != std::string::npos)
     throw InputError(path + ": is not a text file in UTF-8: it has bytes that are zero");
   return text;

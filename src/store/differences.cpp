@@ -1,14 +1,10 @@
 #include "store/differences.hpp"
 
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -18,8 +14,8 @@ std::string in_quotes(const std::string& text) {
   return "'" + printable(text) + "'";
 }
 
-}  // namespace
-
+/// "line 3 was 'a' and is 'b'": the first line in which two texts differ. Where one text has ended, its line
+/// counts as empty.
 std::string first_difference(const std::string& before, const std::string& now) {
   std::istringstream a(before), b(now);
   for (int line = 1;; ++line) {
@@ -31,6 +27,8 @@ std::string first_difference(const std::string& before, const std::string& now) 
       return "line " + std::to_string(line) + " was " + in_quotes(line_a) + " and is " + in_quotes(line_b);
   }
 }
+
+}  // namespace
 
 std::string changes(const Settings& before, const Settings& now) {
   std::map<std::string, std::array<std::string, 2>> texts;
@@ -51,14 +49,6 @@ void require_same_run(const std::string& path, const Settings& before, const Set
   const std::string found = changes(before, now);
   if (!found.empty())
     throw InputError(path + ": cannot be resumed: " + found + "; restore it, or begin anew with --force");
-}
-
-std::string bytes_of_file(const std::string& path) {
-  require_plain_file(path);
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file && !file.eof()) throw InputError(path + ": cannot be read");
-  return bytes;
 }
 
 }  // namespace eigentrail

@@ -7,10 +7,6 @@
 
 namespace eigentrail {
 
-/// "line 3 was 'a' and is 'b'": the first line in which two texts differ. Where one text has ended, its line
-/// counts as empty.
-std::string first_difference(const std::string& before, const std::string& now);
-
 /// What has changed from one run's settings to another's, in words: "scene: line 3 was 'a' and is 'b'; to:
 /// was '5' and is '6'".
 std::string changes(const Settings& before, const Settings& now);
@@ -18,8 +14,5 @@ std::string changes(const Settings& before, const Settings& now);
 /// Throws InputError with the changes, unless there are none: the file of an interrupted run cannot be
 /// resumed.
 void require_same_run(const std::string& path, const Settings& before, const Settings& now);
-
-/// The bytes of a file. Throws InputError if it cannot be read.
-std::string bytes_of_file(const std::string& path);
 
 }  // namespace eigentrail

@@ -31,15 +31,13 @@ void sync(int descriptor, const std::string& path) {
 void sync_folder(const std::string& path) {
   const std::filesystem::path parent = std::filesystem::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) fail(folder);
-  try {
-    sync(descriptor, folder);
-  } catch (...) {
-    close(descriptor);
-    throw;
-  }
-  close(descriptor);
+  struct Descriptor {
+    int number;
+    ~Descriptor() { close(number); }
+  };
+  const Descriptor opened{open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  if (opened.number < 0) fail(folder);
+  sync(opened.number, folder);
 }
 
 /// Renames without replacing. NFS cannot do that, but refuses a second name that is there.

@@ -6,6 +6,7 @@
 #include "core/archive.hpp"
 #include "core/fingerprint.hpp"
 #include "core/texts.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/core/version.hpp"
 #include "store/differences.hpp"

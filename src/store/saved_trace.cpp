@@ -3,6 +3,7 @@
 #include "core/archive.hpp"
 #include "core/blas.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/version.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "store/differences.hpp"

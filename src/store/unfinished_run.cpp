@@ -10,6 +10,7 @@
 #include "core/archive.hpp"
 #include "core/blas.hpp"
 #include "core/fingerprint.hpp"
+#include "eigentrail/core/plain_file.hpp"
 #include "store/differences.hpp"
 #include "store/output_lock.hpp"
 #include "store/saved_pieces.hpp"
