@@ -4,6 +4,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "core/texts.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -26,17 +28,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-bool differ_in_case_only(std::string_view a, std::string_view b) {
-  const auto same_letter = [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_letter);
-}
-
 /// Whether a candidate may be meant by a misspelt name. If the edit distance equals the length, no character
 /// is kept; the candidate is then meant only if it differs in case alone.
 bool resembles(std::string_view name, std::string_view candidate, std::size_t distance) {
-  return distance < std::max(name.size(), candidate.size()) || differ_in_case_only(name, candidate);
+  return distance < std::max(name.size(), candidate.size()) || equal_words(name, candidate);
 }
 
 }  // namespace
@@ -62,7 +57,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 bool is_misprint(std::string_view name, std::string_view known) {
   constexpr std::size_t shortest = 4;
   if (name == known || std::min(name.size(), known.size()) < shortest) return false;
-  if (differ_in_case_only(name, known)) return true;
+  if (equal_words(name, known)) return true;
   const auto first = static_cast<std::size_t>(
       std::mismatch(name.begin(), name.end(), known.begin(), known.end()).first - name.begin());
   if (name.size() == known.size()) {

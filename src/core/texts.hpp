@@ -1,4 +1,4 @@
-// Lists, numbers and letters in texts.
+// Texts: their parts and letters, and lists and numbers in them.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +33,13 @@ std::span<const Item> first_items(const std::vector<Item>& list, std::size_t mos
   return std::span(list).first(std::min(most, list.size()));
 }
 
+/// A part of `text`: without the characters `blanks` at its ends.
+inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\f\v") {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 /// The parts of a text between separators.
 inline std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -57,6 +64,14 @@ std::optional<Number> parsed_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
+/// A number with so many significant digits, as people read it.
+inline std::string short_text(double number, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << number;
+  return text.str();
+}
+
 /// A text with `what` replaced wherever it stands.
 inline std::string replaced_all(std::string text, std::string_view what, std::string_view with) {
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
@@ -72,6 +87,12 @@ inline std::string lower_case(std::string text) {
 inline std::string upper_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return text;
+}
+
+/// Whether both are equal but for upper and lower case.
+inline bool equal_words(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 }  // namespace eigentrail

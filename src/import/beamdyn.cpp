@@ -53,8 +53,8 @@ class BeamDynImport {
     result.warnings = std::move(warnings_);
     result.understood.push_back(std::to_string(blade_.span.size()) + " stations and " +
                                 std::to_string(axis_.points.size()) + " key points on " +
-                                short_text(scene.length) + " m");
-    result.understood.push_back("rotor speed 0 to " + short_text(scene.largest_speed) + " rpm");
+                                short_text(scene.length, 6) + " m");
+    result.understood.push_back("rotor speed 0 to " + short_text(scene.largest_speed, 6) + " rpm");
     if (!request_.options.contains("hub-radius"))
       result.warnings.emplace_back(
           "the hub radius is taken as 0; BeamDyn does not know it: give --hub-radius");
@@ -120,7 +120,7 @@ class BeamDynImport {
     }
     if (misfit > mass_form)
       warnings_.push_back("mass matrices are not those of plane sections, by " +
-                          short_text(std::round(1e4 * misfit) / 100.0) +
+                          short_text(std::round(1e4 * misfit) / 100.0, 6) +
                           " %: they are taken from the mass along the blade and its moments about x and y");
     const std::set<std::string> always = {"span", "twist [deg]", "mass", "inertia_flap", "inertia_lag"};
     std::erase_if(columns,

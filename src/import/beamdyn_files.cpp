@@ -1,5 +1,6 @@
 #include <Eigen/Cholesky>
 
+#include "core/texts.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/blade_files.hpp"
 #include "import/input_lines.hpp"

@@ -45,7 +45,7 @@ std::string stations_of(const ElastoDynBlade& blade, std::vector<std::string>& w
 void warn(const ElastoDynBlade& blade, std::vector<std::string>& warnings) {
   if (blade.damping[1] != 0.0)
     warnings.push_back(
-        "BldFlDmp(2) = " + short_text(blade.damping[1]) +
+        "BldFlDmp(2) = " + short_text(blade.damping[1], 6) +
         " % is not used: the damping of the material gives the second flap mode BldFlDmp(1) in "
         "proportion to its frequency");
   if (blade.tuners != std::array{1.0, 1.0})
@@ -81,10 +81,10 @@ Imported read_elastodyn(const ImportRequest& request) {
   Imported result = blade_import("Blade of ElastoDyn", scene, stations_of(blade, warnings));
   result.warnings = std::move(warnings);
   result.understood.push_back(std::to_string(blade.columns.at("BlFract").size()) + " stations on " +
-                              short_text(scene.length) + " m from a hub radius of " +
-                              short_text(scene.hub_radius) + " m; mass times " +
-                              short_text(blade.mass_factor));
-  result.understood.push_back("rotor speed 0 to " + short_text(scene.largest_speed) + " rpm");
+                              short_text(scene.length, 6) + " m from a hub radius of " +
+                              short_text(scene.hub_radius, 6) + " m; mass times " +
+                              short_text(blade.mass_factor, 6));
+  result.understood.push_back("rotor speed 0 to " + short_text(scene.largest_speed, 6) + " rpm");
   if (!files.main && !request.options.contains("hub-radius"))
     result.warnings.emplace_back(
         "the hub radius is taken as 0; give --hub-radius, or ElastoDyn's main file, too");

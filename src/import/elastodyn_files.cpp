@@ -1,5 +1,6 @@
 #include <set>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/blade_files.hpp"
@@ -113,8 +114,8 @@ ElastoDynRotor parse_elastodyn_rotor(std::string_view text, const std::string& p
   if (!found.contains("TipRad") || !found.contains("HubRad"))
     lines.fail("no TipRad and HubRad; is this a main file of ElastoDyn?");
   if (rotor.hub_radius < 0.0 || !(rotor.tip_radius > rotor.hub_radius))
-    lines.fail("expected 0 <= HubRad < TipRad; they are " + short_text(rotor.hub_radius) + " and " +
-               short_text(rotor.tip_radius));
+    lines.fail("expected 0 <= HubRad < TipRad; they are " + short_text(rotor.hub_radius, 6) + " and " +
+               short_text(rotor.tip_radius, 6));
   return rotor;
 }
 

@@ -1,8 +1,8 @@
 #include "import/input_lines.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -77,12 +77,6 @@ std::string without_quotes(std::string_view word) {
   if (word.size() > 1 && (word.front() == '"' || word.front() == '\'') && word.back() == word.front())
     word = word.substr(1, word.size() - 2);
   return std::string(word);
-}
-
-std::string short_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
 }
 
 }  // namespace eigentrail

@@ -32,7 +32,4 @@ bool has_name(const std::vector<std::string_view>& words, std::string_view name)
 /// A word without the quotes around it.
 std::string without_quotes(std::string_view word);
 
-/// A number with six digits, for sentences.
-std::string short_text(double value);
-
 }  // namespace eigentrail

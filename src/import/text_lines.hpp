@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/trimmed.hpp"
+#include "core/texts.hpp"
 
 namespace eigentrail {
 
@@ -35,8 +35,6 @@ std::string_view columns_of_line(std::string_view line, std::size_t begin, std::
 std::string shown(std::string_view word);
 /// Words between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
-/// Whether both are equal but for upper and lower case.
-bool equal_words(std::string_view a, std::string_view b);
 
 /// "1 file", "3 files".
 std::string count_of(std::size_t count, const std::string& what);

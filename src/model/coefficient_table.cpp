@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/short_text.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/trimmed.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/plain_file.hpp"
 #include "eigentrail/core/text.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/short_text.hpp"
+#include "core/texts.hpp"
 #include "core/transposition.hpp"
 #include "eigentrail/core/series.hpp"
 #include "eigentrail/core/text.hpp"

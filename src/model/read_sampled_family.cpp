@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "core/hdf5_file.hpp"
-#include "core/short_text.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "model/beside_scene.hpp"

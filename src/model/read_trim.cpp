@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/trimmed.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {

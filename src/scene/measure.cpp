@@ -3,7 +3,7 @@
 #include <cctype>
 #include <charconv>
 
-#include "core/trimmed.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/units.hpp"
 

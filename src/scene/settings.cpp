@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/trimmed.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/units.hpp"

@@ -48,7 +48,7 @@ std::string with_other_capitals(const std::string& symbol) {
                                                       "MPa", "GPa", "J",  "kJ", "MJ",  "W",  "kW",
                                                       "MW",  "rad", "kg", "A",  "V",   "K"};
   for (const std::string_view unit : usual) {
-    if (lower_case(std::string(unit)) == lower_case(symbol)) return std::string(unit);
+    if (equal_words(unit, symbol)) return std::string(unit);
   }
   return "";
 }

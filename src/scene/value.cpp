@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "core/texts.hpp"
-#include "core/trimmed.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/units.hpp"

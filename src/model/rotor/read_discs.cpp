@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/short_text.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "model/rotor/rotor_draft.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/short_text.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "model/rotor/rotor_draft.hpp"
