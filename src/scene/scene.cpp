@@ -46,6 +46,32 @@ void set_start_of_trace(Scene& scene, const std::string& name) {
   scene.parameters = Parameters(std::move(list));
 }
 
+/// A value of this type. Throws InputError: "expected a text, found a number".
+template <class T>
+const T& as(const TableReader& reader, const Value& value, const std::string& key,
+            const std::string& expected) {
+  const T* found = std::get_if<T>(&value.data);
+  if (found == nullptr) reader.fail(key, "expected " + expected + ", found " + value.kind());
+  return *found;
+}
+
+/// The items of a list that is not too long, or a single value, each as what `make` makes of it.
+template <class Make>
+auto items_of(const TableReader& reader, const Value& value, const std::string& key, const char* what,
+              const Make& make) {
+  const auto* array = std::get_if<Array>(&value.data);
+  std::vector<std::decay_t<decltype(make(value))>> result;
+  if (array == nullptr) {
+    result.push_back(make(value));
+    return result;
+  }
+  if (array->size() > limits::list_length)
+    reader.fail(key, "expected at most " + std::to_string(limits::list_length) + " " + what + ", found " +
+                         std::to_string(array->size()));
+  for (const Value& item : *array) result.push_back(make(item));
+  return result;
+}
+
 }  // namespace
 
 InputError scene_error(const Scene& scene, SourceLocation where, const std::string& message) {
@@ -110,15 +136,14 @@ Expression TableReader::to_expression(const Value& value, const std::string& key
     if (!std::isfinite(*number)) fail(key, "expected a finite number");
     return {*number};
   }
-  const auto* text = std::get_if<std::string>(&value.data);
-  if (text == nullptr) fail(key, "expected a number or an expression, found " + value.kind());
+  const auto& text = as<std::string>(*this, value, key, "a number or an expression");
   try {
-    Expression expression = Expression::parse(*text, scene_.parameters.names());
+    Expression expression = Expression::parse(text, scene_.parameters.names());
     used_.insert(expression.parameters().begin(), expression.parameters().end());
-    check_dimension(expression, key, *text, unit);
+    check_dimension(expression, key, text, unit);
     return expression;
   } catch (const ExpressionError& error) {
-    fail(key, "in \"" + *text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
+    fail(key, "in \"" + text + "\" at character " + std::to_string(error.offset + 1) + ": " + error.what());
   }
 }
 
@@ -167,47 +192,25 @@ NameOrPosition TableReader::name_or_position(const std::string& key, WantedUnit 
 }
 
 std::string TableReader::text(const std::string& key) {
-  const Value& value = require(key, "a text");
-  const auto* text = std::get_if<std::string>(&value.data);
-  if (text == nullptr) fail(key, "expected a text, found " + value.kind());
-  return *text;
+  return as<std::string>(*this, require(key, "a text"), key, "a text");
 }
 
 std::vector<std::string> TableReader::texts(const std::string& key) {
   const Value& value = require(key, "a text, or a list of texts");
-  const auto to_text = [&](const Value& item) {
+  return items_of(*this, value, key, "texts", [&](const Value& item) {
     if (const auto* number = std::get_if<double>(&item.data)) return exact_text(*number);
-    const auto* text = std::get_if<std::string>(&item.data);
-    if (text == nullptr) fail(key, "expected a text or a number, found " + item.kind());
-    return *text;
-  };
-  const auto* array = std::get_if<Array>(&value.data);
-  if (array == nullptr) return {to_text(value)};
-  if (array->size() > limits::list_length)
-    fail(key, "expected at most " + std::to_string(limits::list_length) + " texts, found " +
-                  std::to_string(array->size()));
-  std::vector<std::string> result;
-  for (const Value& item : *array) result.push_back(to_text(item));
-  return result;
+    return as<std::string>(*this, item, key, "a text or a number");
+  });
 }
 
 bool TableReader::flag(const std::string& key) {
-  const Value& value = require(key, "true or false");
-  const auto* flag = std::get_if<bool>(&value.data);
-  if (flag == nullptr) fail(key, "expected true or false, found " + value.kind());
-  return *flag;
+  return as<bool>(*this, require(key, "true or false"), key, "true or false");
 }
 
 std::vector<Expression> TableReader::list(const std::string& key, WantedUnit unit) {
   const Value& value = require(key, "a number or a list of numbers");
-  const auto* array = std::get_if<Array>(&value.data);
-  if (array == nullptr) return {to_expression(value, key, unit)};
-  if (array->size() > limits::list_length)
-    fail(key, "expected at most " + std::to_string(limits::list_length) + " numbers, found " +
-                  std::to_string(array->size()));
-  std::vector<Expression> result;
-  for (const Value& item : *array) result.push_back(to_expression(item, key, unit));
-  return result;
+  return items_of(*this, value, key, "numbers",
+                  [&](const Value& item) { return to_expression(item, key, unit); });
 }
 
 const Array& TableReader::items(const Value& value, const std::string& key, const std::string& expected) {
@@ -248,9 +251,7 @@ bool TableReader::is_table(const std::string& key) {
 
 TableReader TableReader::table(const std::string& key) {
   const Value& value = require(key, "a table");
-  const auto* table = std::get_if<Table>(&value.data);
-  if (table == nullptr) fail(key, "expected a table { ... }, found " + value.kind());
-  return {scene_, *table, label_ + " " + key, used_};
+  return {scene_, as<Table>(*this, value, key, "a table { ... }"), label_ + " " + key, used_};
 }
 
 std::vector<std::string> TableReader::keys() const {

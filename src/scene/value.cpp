@@ -15,8 +15,9 @@
 namespace eigentrail {
 namespace {
 
-SourceLocation location(const toml::node& node) {
-  return {static_cast<int>(node.source().begin.line), static_cast<int>(node.source().begin.column)};
+/// Where something begins in the file: a node, a key or an error.
+SourceLocation location(const auto& item) {
+  return {static_cast<int>(item.source().begin.line), static_cast<int>(item.source().begin.column)};
 }
 
 std::string prefix(const std::string& path, SourceLocation where) {
@@ -60,7 +61,7 @@ Table convert_table(const toml::table& source, const std::string& path, int dept
       refuse_length(path, location(node), "a key", limits::key_length);
     Value value = convert(node, path, depth + 1);
     // Errors are reported at the position of the key, not at that of its value.
-    value.where = {static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
+    value.where = location(key);
     table.entries.emplace_back(std::string(key.str()), std::move(value));
   }
   const auto in_file_order = [](const auto& a, const auto& b) {
@@ -269,8 +270,7 @@ Table parse_toml(std::string_view text, const std::string& path) {
   try {
     return convert_table(toml::parse(text, path), path, 0);
   } catch (const toml::parse_error& error) {
-    const SourceLocation where{static_cast<int>(error.source().begin.line),
-                               static_cast<int>(error.source().begin.column)};
+    const SourceLocation where = location(error);
     throw InputError(prefix(path, where) + "not valid TOML: " + std::string(error.description()) +
                      toml_hint(text, where.line, error.description()));
   }
