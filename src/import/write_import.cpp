@@ -25,7 +25,7 @@ template <class Element>
 void write_array(Hdf5Writer& file, const std::string& name, const Shape& shape,
                  const std::vector<Element>& elements) {
   file.create_dataset({name, element_type<Element>(), shape, false, {}});
-  if (!elements.empty()) file.write_rows(name, 0, elements);
+  file.write_rows(name, 0, elements);
 }
 
 /// Writes a list unless it is empty.
@@ -132,6 +132,7 @@ void write_sparse(Hdf5Writer& file, const std::string& name, const SparseMatrix&
 }
 
 std::string family_file(const PolynomialData& family) {
+  check(family);
   Hdf5Writer file = Hdf5Writer::in_memory("matrices");
   for (const auto& [name, coefficients] :
        {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"E", &family.E}, {"A", &family.A}}) {
@@ -152,7 +153,7 @@ std::string family_file(const PolynomialData& family) {
   return file.image();
 }
 
-/// The bytes of the file that the scene names.
+/// The bytes of the file that the scene names. Throws std::invalid_argument if its contents do not fit.
 std::string data_file(const Imported& imported) {
   if (imported.stations) return imported.stations->csv;
   if (imported.family) return family_file(*imported.family);
@@ -162,11 +163,10 @@ std::string data_file(const Imported& imported) {
 }
 
 std::string scene_text(const Imported& imported, const std::string& file) {
-  if (imported.stations) {
-    std::string text = "title = " + quoted(imported.title) + "\n\n";
-    for (const std::string& line : imported.understood) text += "# " + printable(line) + "\n";
-    return text + "\n" + imported.stations->tables + "file = " + quoted(file) + "\n";
-  }
+  std::string text = "title = " + quoted(imported.title) + "\n\n";
+  for (const std::string& line : imported.understood) text += "# " + printable(line) + "\n";
+  text += "\n";
+  if (imported.stations) return text + imported.stations->tables + "file = " + quoted(file) + "\n";
   const SampledData& samples = imported.samples;
   const std::optional<PolynomialData>& family = imported.family;
   const auto [least, largest] = family ? std::pair(family->from, family->to)
@@ -174,9 +174,7 @@ std::string scene_text(const Imported& imported, const std::string& file) {
                                                    *std::ranges::max_element(samples.values));
   const std::string& unit = family ? family->parameter_unit : samples.parameter_unit;
   const bool known_unit = !unit.empty() && unit_factor(unit).has_value();
-  std::string text = "title = " + quoted(imported.title) + "\n\n";
-  for (const std::string& line : imported.understood) text += "# " + printable(line) + "\n";
-  text += "\n[parameters]\n" + imported.parameter + " = { value = " + exact_text(least);
+  text += "[parameters]\n" + imported.parameter + " = { value = " + exact_text(least);
   text += (known_unit ? ", unit = " + quoted(unit) : "") + " }";
   text += (unit.empty() || known_unit ? "" : "  # " + printable(unit)) + "\n\n";
   text += std::string(family ? "[matrix_family]" : "[sampled_family]") + "\nfile = " + quoted(file) +
@@ -218,15 +216,10 @@ std::string write_import(const Imported& imported, const std::string& folder, co
   const fs::path data = fs::path(folder) / (name + (imported.stations ? ".csv" : ".h5"));
   const Existing existing =
       existing_pair(data.string(), scene.string(), force, "--force replaces it, --name gives another name");
-  if (imported.family) {
-    check(*imported.family);
-  } else if (!imported.stations) {
-    check(imported.samples);
-  }
+  const std::string bytes = data_file(imported), text = scene_text(imported, data.filename().string());
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder + ": the folder cannot be made: " + error.message());
-  const std::string bytes = data_file(imported), text = scene_text(imported, data.filename().string());
   write_durably({{data.string(), {bytes}}, {scene.string(), {text}}}, existing);
   return scene.string();
 }
