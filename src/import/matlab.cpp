@@ -24,8 +24,7 @@ std::vector<NamedArray> read_variables(const std::string& path) {
 
 Imported read_matlab(const ImportRequest& request) {
   if (request.files.size() != 1) throw InputError("matlab: expected one .mat file with all samples");
-  const std::string& path = request.files.front();
-  return from_arrays(read_variables(path), {path, false}, request.options);
+  return from_arrays(read_variables(request.files.front()), request, false);
 }
 
 }  // namespace

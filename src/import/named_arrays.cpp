@@ -47,20 +47,19 @@ struct Family {
 
 class ArrayReader {
  public:
-  ArrayReader(const std::vector<NamedArray>& arrays, const ArrayOptions& options,
-              const std::map<std::string, std::string>& user)
-      : arrays_(arrays), options_(options), user_(user) {
+  ArrayReader(const std::vector<NamedArray>& arrays, const ImportRequest& request, bool samples_first)
+      : arrays_(arrays), request_(request), samples_first_(samples_first) {
     find_families();
   }
 
   Imported read() {
-    result_.title = std::filesystem::path(options_.file).stem().string();
+    result_.title = std::filesystem::path(request_.files.front()).stem().string();
     read_matrices();
     read_parameter();
     repeat_constants();
     read_states();
     SampledData& data = result_.samples;
-    const std::string digits = note_digits(data, user_);
+    const std::string digits = note_digits(data, request_.options);
     data.source = result_.title + ", " + std::to_string(data.count()) + " samples";
     try {
       check(data);
@@ -77,7 +76,7 @@ class ArrayReader {
 
  private:
   [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(options_.file + ": " + message);
+    throw InputError(request_.files.front() + ": " + message);
   }
 
   /// The same for an array that becomes part of the model; the others are listed.
@@ -95,11 +94,6 @@ class ArrayReader {
   const Family* find_family(const std::string& stem) const {
     const auto found = std::ranges::find(families_, stem, &Family::stem);
     return found == families_.end() ? nullptr : &*found;
-  }
-
-  std::optional<std::string> option(const std::string& name) const {
-    const auto found = user_.find(name);
-    return found == user_.end() ? std::nullopt : std::optional(found->second);
   }
 
   void find_families() {
@@ -143,9 +137,9 @@ class ArrayReader {
     const bool last = shape.size() == 3 && shape[0] == shape[1];
     if (array.is_text || (!plane && !first && !last))
       fail("array " + array.name + " is " + (array.is_text ? "text" : shape_text(shape)) +
-           "; expected a matrix n x n, or samples " + (options_.samples_first ? "k x n x n" : "n x n x k"));
+           "; expected a matrix n x n, or samples " + (samples_first_ ? "k x n x n" : "n x n x k"));
     if (array.size() == 0) fail("array " + array.name + " is " + shape_text(shape) + ", without entries");
-    const bool samples_first = first && (!last || options_.samples_first);
+    const bool samples_first = first && (!last || samples_first_);
     const std::size_t rows = samples_first ? shape[1] : shape[0];
     const std::size_t count = plane ? 1 : samples_first ? shape[0] : shape[2];
     if (rows > limits::matrix_rows || count > limits::samples)
@@ -192,7 +186,7 @@ class ArrayReader {
     family.C = {data.C.empty() ? Matrix(Matrix::Zero(n, n)) : data.C[0], G[0]};
     family.K = {data.K[0]};
     family.state_names = data.state_names;
-    family.parameter_unit = option("unit").value_or("rad/s");
+    family.parameter_unit = request_.option("unit", "rad/s");
     const bool named = data.values[0] != 0.0;
     if (named) family.to = data.values[0];
     if (!named) result_.parameter = "speed";
@@ -272,7 +266,7 @@ class ArrayReader {
   }
 
   void read_parameter() {
-    std::string name = option("parameter").value_or("");
+    std::string name = request_.option("parameter");
     if (name.empty()) name = chosen_parameter();
     if (name.empty()) {
       result_.parameter = "p";
@@ -290,7 +284,7 @@ class ArrayReader {
     if (const Family* numbered = find(name) == nullptr ? find_family(name) : nullptr)
       for (const NamedArray* member : numbered->members) taken_.insert(member->name);
     result_.parameter = is_identifier(name) && name != "parameter" ? name : "p";
-    result_.samples.parameter_unit = option("unit").value_or("");
+    result_.samples.parameter_unit = request_.option("unit");
   }
 
   /// The array with the values of the parameter; empty if there is none and one sample.
@@ -393,8 +387,8 @@ class ArrayReader {
   }
 
   const std::vector<NamedArray>& arrays_;
-  const ArrayOptions& options_;
-  const std::map<std::string, std::string>& user_;
+  const ImportRequest& request_;
+  const bool samples_first_;
   std::vector<Family> families_;
   std::set<std::string> taken_;  ///< names of the arrays that are parts of the model
   std::vector<std::vector<std::string>> names_per_sample_;
@@ -425,9 +419,9 @@ std::vector<ImportedItem> array_items(const std::string& cube) {
           {"A_error", "bounds of the errors of the entries of A"}};
 }
 
-Imported from_arrays(std::vector<NamedArray> arrays, const ArrayOptions& options,
-                     const std::map<std::string, std::string>& user_options) {
-  return ArrayReader(arrays, options, user_options).read();
+Imported from_arrays(const std::vector<NamedArray>& arrays, const ImportRequest& request,
+                     bool samples_first) {
+  return ArrayReader(arrays, request, samples_first).read();
 }
 
 }  // namespace eigentrail

@@ -81,8 +81,7 @@ std::vector<NamedArray> read_archive(const std::string& path) {
 
 Imported read_numpy(const ImportRequest& request) {
   if (request.files.size() != 1) throw InputError("numpy: expected one .npz file with all samples");
-  const std::string& path = request.files.front();
-  return from_arrays(read_archive(path), {path, true}, request.options);
+  return from_arrays(read_archive(request.files.front()), request, true);
 }
 
 }  // namespace

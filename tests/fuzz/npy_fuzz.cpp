@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                                      false};
     if (parameter.shape[0] > 1000) return 0;
     for (std::size_t i = 0; i < parameter.shape[0]; ++i) parameter.numbers.push_back(static_cast<double>(i));
-    (void)eigentrail::from_arrays({array, parameter}, {"a.npz", true}, {});
+    (void)eigentrail::from_arrays({array, parameter}, {{"a.npz"}, {}}, true);
   } catch (const eigentrail::InputError&) {
   }
   return 0;

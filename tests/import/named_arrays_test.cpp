@@ -26,7 +26,7 @@ NamedArray texts(const std::string& name, const std::vector<std::size_t>& shape,
 
 Imported read(const std::vector<NamedArray>& arrays, const std::map<std::string, std::string>& options = {},
               bool samples_first = true) {
-  return from_arrays(arrays, {"dir/model.npz", samples_first}, options);
+  return from_arrays(arrays, {{"dir/model.npz"}, options}, samples_first);
 }
 
 std::string message(const std::vector<NamedArray>& arrays,
