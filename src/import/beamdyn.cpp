@@ -152,10 +152,6 @@ class BeamDynImport {
   std::vector<double> fractions_;
 };
 
-Imported read_beamdyn(const ImportRequest& request) {
-  return BeamDynImport(request).read();
-}
-
 }  // namespace
 
 Importer beamdyn_importer() {
@@ -168,7 +164,7 @@ Importer beamdyn_importer() {
            {"mu1 ... mu6", "[[beam_damping]]; with damp_type 2 the first two ratios, of flap and lag"}},
           {{"hub-radius", "m; default: 0"},
            {"speed", "largest rotor speed of the trace, rpm; default: a tip speed of 80 m/s"}},
-          read_beamdyn};
+          [](const ImportRequest& request) { return BeamDynImport(request).read(); }};
 }
 
 }  // namespace eigentrail

@@ -300,10 +300,6 @@ class MarketImport {
   Imported result_;
 };
 
-Imported read_matrix_market(const ImportRequest& request) {
-  return MarketImport(request).read();
-}
-
 }  // namespace
 
 Importer matrix_market_importer() {
@@ -324,7 +320,7 @@ Importer matrix_market_importer() {
        {"to", "powers: end of its range; default 1"},
        {"state-names", "text file with one name per line"},
        digits_help()},
-      read_matrix_market};
+      [](const ImportRequest& request) { return MarketImport(request).read(); }};
 }
 
 }  // namespace eigentrail

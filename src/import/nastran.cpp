@@ -319,10 +319,6 @@ class NastranImport {
   Imported result_;
 };
 
-Imported read_nastran(const ImportRequest& request) {
-  return NastranImport(request).read();
-}
-
 }  // namespace
 
 Importer nastran_importer() {
@@ -346,7 +342,7 @@ Importer nastran_importer() {
        {"unit", "unit of the parameter, such as \"rpm\""},
        {"values", "values of the parameter, one per file, such as 0,100,200"},
        digits_help()},
-      read_nastran};
+      [](const ImportRequest& request) { return NastranImport(request).read(); }};
 }
 
 }  // namespace eigentrail

@@ -206,10 +206,10 @@ class OpenFastImport {
 
   void describe(const LinStates& states, const Parameter& parameter,
                 const std::vector<OperatingPointFiles>& points, double periodicity, Imported& result) const {
-    std::size_t fewest = files_.size();
-    int digits = 17;
-    for (const OperatingPointFiles& point : points) fewest = std::min(fewest, point.files.size());
-    for (const LinFile& file : files_) digits = std::min(digits, file.digits);
+    const auto azimuths = [](const OperatingPointFiles& point) { return point.files.size(); };
+    const std::size_t fewest = azimuths(*std::ranges::min_element(points, {}, azimuths));
+    const std::size_t most = azimuths(*std::ranges::max_element(points, {}, azimuths));
+    const int digits = std::ranges::min_element(files_, {}, &LinFile::digits)->digits;
     std::string range = rounded_text(points.front().parameter);
     if (points.size() > 1) range += " to " + rounded_text(points.back().parameter);
     result.understood.push_back(count_of(points.size(), "operating point") + " from " +
@@ -223,8 +223,6 @@ class OpenFastImport {
                                            " blades in multiblade coordinates"));
     result.understood.push_back("entries known to " + std::to_string(digits) + " digits");
     const std::string percent = rounded_text(std::round(periodicity * 1e4) / 1e2) + " %";
-    std::size_t most = fewest;
-    for (const OperatingPointFiles& point : points) most = std::max(most, point.files.size());
     if (most > 1)
       result.understood.push_back(
           "averaged over " + (fewest < most ? std::to_string(fewest) + " to " : std::string()) +
@@ -250,10 +248,6 @@ class OpenFastImport {
   std::vector<LinFile> files_;
 };
 
-Imported read_openfast(const ImportRequest& request) {
-  return OpenFastImport(request).read();
-}
-
 }  // namespace
 
 Importer openfast_importer() {
@@ -268,7 +262,7 @@ Importer openfast_importer() {
           {{"parameter",
             "wind_speed, rotor_speed, or a part of the description of a state, input or output; "
             "default: wind_speed, or rotor_speed if the wind does not vary"}},
-          read_openfast};
+          [](const ImportRequest& request) { return OpenFastImport(request).read(); }};
 }
 
 }  // namespace eigentrail
