@@ -97,18 +97,23 @@ std::string cost_text(const MeasuredRun* run) {
   return setting + ": " + std::to_string(run->points) + " points, " + milliseconds(run->seconds);
 }
 
+/// The tolerances of the traces with certificate, the largest first.
+std::set<double, std::greater<>> tolerances_of(const std::vector<MeasuredRun>& runs) {
+  std::set<double, std::greater<>> tolerances;
+  for (const MeasuredRun& run : runs) {
+    if (run.method == Method::trace) tolerances.insert(run.tolerance);
+  }
+  return tolerances;
+}
+
 /// Prints for each tolerance the fastest trace that had this tolerance or a smaller one and achieved it, and
 /// the fastest run on a grid that achieved it.
 void print_advice(const std::vector<MeasuredRun>& runs) {
-  std::set<double, std::greater<>> bounds;
-  for (const MeasuredRun& run : runs) {
-    if (run.method == Method::trace) bounds.insert(run.tolerance);
-  }
   const auto is_rival = [](const MeasuredRun& run) { return !by_trace(run); };
   const bool rivals = std::ranges::any_of(runs, is_rival);
   std::vector<std::vector<std::string>> rows{{"error below", "fastest trace"}};
   if (rivals) rows[0].emplace_back("fastest instead");
-  for (const double bound : bounds) {
+  for (const double bound : tolerances_of(runs)) {
     const auto promised = [bound](const MeasuredRun& run) {
       return run.method == Method::trace && run.tolerance <= bound;
     };
@@ -121,11 +126,7 @@ void print_advice(const std::vector<MeasuredRun>& runs) {
 /// The order that was the fastest at the largest number of tolerances; 0 if there are no measured traces.
 int best_order(const std::vector<MeasuredRun>& runs) {
   std::vector<int> wins(8, 0);
-  std::set<double> tolerances;
-  for (const MeasuredRun& run : runs) {
-    if (run.method == Method::trace) tolerances.insert(run.tolerance);
-  }
-  for (const double tolerance : tolerances) {
+  for (const double tolerance : tolerances_of(runs)) {
     const MeasuredRun* best = fastest(runs, INFINITY, [&](const MeasuredRun& run) {
       return run.method == Method::trace && run.tolerance == tolerance;
     });
@@ -144,8 +145,8 @@ void print_cost_of_certificate(const std::vector<MeasuredRun>& runs) {
   const double share = (with.seconds - without->seconds) / with.seconds;
   std::printf(
       "; the certificate costs %s of the time at tolerance %s and order %d (%llu LU with it, %llu without)",
-      share > 0.0 ? (rounded(100.0 * share, 2) + " %").c_str() : "less than the noise",
-      exact_text(with.tolerance).c_str(), with.order, static_cast<unsigned long long>(with.factorizations),
+      share > 0.0 ? percent(share, 2).c_str() : "less than the noise", exact_text(with.tolerance).c_str(),
+      with.order, static_cast<unsigned long long>(with.factorizations),
       static_cast<unsigned long long>(without->factorizations));
 }
 
@@ -248,9 +249,7 @@ int run_accuracy(AccuracyArguments& arguments, Team& team) {
     });
     return std::vector<std::string>();
   };
-  job.finish = [&](const std::vector<std::string>&, Workers&, std::optional<double>) {
-    return finish_study(setup, arguments, job, study);
-  };
+  job.finish = [&](const ComputedRun&) { return finish_study(setup, arguments, job, study); };
   return carry_out(job, arguments.output, team);
 }
 

@@ -74,13 +74,8 @@ void print_corners(const BoundaryOptions& options, const BoundaryResult& result)
   std::vector<std::vector<std::string>> rows{
       {"corner", options.trace.parameter, options.second, "s", "curves"}};
   for (const Corner& corner : result.corners) {
-    const auto root = [&corner](std::size_t i) {
-      const Complex s = corner.s[i];
-      constexpr double rounding = 1e-12;
-      return complex_text(std::abs(s.real()) > rounding * std::abs(s) ? s.real() : 0.0, s.imag(), 8);
-    };
     rows.push_back({corner_name(corner.kind), rounded(corner.place[0], 12), rounded(corner.place[1], 12),
-                    root(0) + ", " + root(1),
+                    eigenvalue_text(corner.s[0], 8) + ", " + eigenvalue_text(corner.s[1], 8),
                     std::to_string(corner.curves[0] + 1) + ", " + std::to_string(corner.curves[1] + 1)});
   }
   print_table(rows);
@@ -108,15 +103,15 @@ void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
 }
 
 /// Follows the boundaries from what was found on all lines, writes them and prints a summary.
-int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const std::vector<std::string>& scans,
-                    const OutputChoice& output, const Team& team, Workers& workers, double seconds) {
+int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const ComputedRun& scans,
+                    const OutputChoice& output) {
   ProgressBar progress(output.quiet);
   BoundaryResult result =
-      follow_boundaries(*setup.model, setup.options, scans, workers,
+      follow_boundaries(*setup.model, setup.options, scans.pieces, scans.workers,
                         [&progress](double share, int points) { progress.update(share, points); });
   progress.finish();
-  result.seconds += seconds;
-  if (!team.leads()) return done;
+  result.seconds += scans.seconds.value_or(0.0);
+  if (!scans.leads) return done;
   if (result.status == BoundaryStatus::no_equilibrium) {
     throw InputError(
         setup.scene.path +
@@ -151,16 +146,15 @@ SharedRun shared_run(const BoundarySetup& setup, BoundaryRequest request) {
   return run;
 }
 
-SharedJob boundary_job(std::shared_ptr<const BoundarySetup> setup, SharedRun run, const OutputChoice& output,
-                       const Team& team) {
+SharedJob boundary_job(std::shared_ptr<const BoundarySetup> setup, SharedRun run,
+                       const OutputChoice& output) {
   SharedJob job{std::move(run), hdf5_format(boundary_format, "boundary file")};
   job.compute = [setup](const std::vector<std::size_t>& lines, Workers& workers, ProgressBar& progress) {
     return scan_boundaries(*setup->model, setup->options, lines, workers,
                            [&progress](double share, int points) { progress.update(share, points); });
   };
-  job.finish = [setup, run = job.run, &output, &team](const std::vector<std::string>& scans, Workers& workers,
-                                                      std::optional<double> seconds) {
-    return finish_boundary(*setup, run, scans, output, team, workers, seconds.value_or(0.0));
+  job.finish = [setup, run = job.run, &output](const ComputedRun& scans) {
+    return finish_boundary(*setup, run, scans, output);
   };
   return job;
 }
@@ -173,13 +167,13 @@ int run_boundary(BoundaryArguments& arguments, Team& team) {
       std::make_shared<const BoundarySetup>(prepare_boundary(std::move(scene), arguments.request));
   warn_of_unused(setup->scene, *setup->model);
   check_boundary_names(*setup);
-  return carry_out(boundary_job(setup, shared_run(*setup, arguments.request), arguments.output, team),
+  return carry_out(boundary_job(setup, shared_run(*setup, arguments.request), arguments.output),
                    arguments.output, team);
 }
 
 }  // namespace
 
-SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
+SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output) {
   BoundaryRequest request;
   request.second = run.setting("--second").value_or("");
   request.from = number_of(run, "--second-from");
@@ -197,7 +191,7 @@ SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output, co
                      ": the files that the scene names have changed since the parts were "
                      "computed; restore them, or repeat the parts");
   return boundary_job(std::make_shared<const BoundarySetup>(prepare_boundary(std::move(scene), request)), run,
-                      output, team);
+                      output);
 }
 
 void add_boundary(CLI::App& program, int& exit_code) {

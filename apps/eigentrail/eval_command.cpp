@@ -89,7 +89,7 @@ void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values
     const bool has_damping = std::isfinite(size) && size > 0.0;
     rows.push_back({exact_text(value.p), value.mode, eigenvalue_text(s, 10), rounded(size / unit.factor, 8),
                     rounded(std::abs(s.imag()) / unit.factor, 8),
-                    has_damping ? rounded(-100.0 * s.real() / size + 0.0, 6) + " %" : "-",
+                    has_damping ? percent(-s.real() / size, 6) : "-",
                     std::isfinite(decrement) ? rounded(decrement + 0.0, 6) : "-"});
     if (loci.data_errors) rows.back().push_back(rounded(value.interpolation + value.digits, 2));
     for (const double trimmed : value.trimmed) rows.back().push_back(rounded(trimmed, 10));

@@ -64,7 +64,7 @@ void print_data(std::FILE* to, const Model& model) {
 std::vector<std::string> recorded(const Effect& effect, double all) {
   if (all == 0.0) return {};
   return {std::to_string(effect.records), std::to_string(effect.directions),
-          std::to_string(effect.operations) + " (" + rounded(100.0 * effect.operations / all, 2) + " %)"};
+          std::to_string(effect.operations) + " (" + percent(effect.operations / all, 2) + ")"};
 }
 
 void print_effects(std::FILE* to, const Model& model) {
@@ -123,6 +123,13 @@ void print_states(std::FILE* to, const Model& model) {
   print_section(to, "states of elements, of first order", rows);
 }
 
+void print_model(std::FILE* to, const Model& model, int traced) {
+  print_parameters(to, model, traced);
+  print_data(to, model);
+  print_effects(to, model);
+  print_states(to, model);
+}
+
 /// Prints the effects for each mode, ordered by their influence on its eigenvalue.
 void print_influences(std::FILE* to, const Influences& influences, const std::string& at) {
   std::fprintf(
@@ -132,20 +139,18 @@ void print_influences(std::FILE* to, const Influences& influences, const std::st
       at.c_str());
   for (Eigen::Index i = 0; i < influences.s.size(); ++i) {
     const Complex s = influences.s[i];
-    std::vector<const EffectInfluence*> ranked;
-    for (const EffectInfluence& influence : influences.effects) ranked.push_back(&influence);
-    std::stable_sort(ranked.begin(), ranked.end(), [i](const auto* a, const auto* b) {
-      return std::abs(a->derivatives[i]) > std::abs(b->derivatives[i]);
-    });
+    std::vector<EffectInfluence> ranked = influences.effects;
+    std::ranges::stable_sort(ranked, std::ranges::greater(),
+                             [i](const EffectInfluence& one) { return std::abs(one.derivatives[i]); });
     std::fprintf(to, "  mode %s  %s\n", std::to_string(i + 1).c_str(),
                  complex_text(s.real(), s.imag(), 8).c_str());
     std::vector<std::vector<std::string>> rows;
-    for (const EffectInfluence* influence : ranked) {
-      const Complex change = influence->derivatives[i] / (std::abs(s) > 0.0 ? std::abs(s) : 1.0);
+    for (const EffectInfluence& influence : ranked) {
+      const Complex change = influence.derivatives[i] / (std::abs(s) > 0.0 ? std::abs(s) : 1.0);
       if (std::isnan(change.real())) {
-        rows.push_back({"    " + influence->effect, "none: a multiple eigenvalue has no derivative"});
+        rows.push_back({"    " + influence.effect, "none: a multiple eigenvalue has no derivative"});
       } else {
-        rows.push_back({"    " + influence->effect, rounded(std::abs(change), 3),
+        rows.push_back({"    " + influence.effect, rounded(std::abs(change), 3),
                         "real " + rounded(change.real(), 3), "imag " + rounded(change.imag(), 3)});
       }
     }
@@ -203,14 +208,12 @@ std::string describe(const std::shared_ptr<const IndependentParts>& parts) {
     number[solved_size(range)] += 1 + range.copies.size();
     total += 1 + range.copies.size();
   }
-  std::string text = std::to_string(total) + " independent parts: ";
-  bool first = true;
-  for (const auto& [size, count] : number) {
-    text += (first ? "" : ", ") + std::to_string(count) + " of " + std::to_string(size) +
-            (size == 1 ? " freedom" : " freedoms");
-    first = false;
-  }
-  return text + describe_pairs(*parts) + describe_equal(*parts) + "; followed one by one";
+  const auto of_size = [](const auto& group) {
+    const auto& [size, count] = group;
+    return std::to_string(count) + " of " + std::to_string(size) + (size == 1 ? " freedom" : " freedoms");
+  };
+  return std::to_string(total) + " independent parts: " + joined(number, ", ", of_size) +
+         describe_pairs(*parts) + describe_equal(*parts) + "; followed one by one";
 }
 
 void print_structure(std::FILE* to, const Structure& structure, bool has_constraints,
@@ -244,7 +247,7 @@ std::string describe_route(const Structure& structure, const ModeWork& work) {
   const std::string how = route == ModeRoute::symmetric
                               ? "all at once by real products of size n (undamped, symmetric)"
                               : "all at once by products in state space, size 2 n";
-  return how + ": about " + rounded(100.0 * share, 2) + " % of the work of one LU per mode";
+  return how + ": about " + percent(share, 2) + " of the work of one LU per mode";
 }
 
 void print_solvers(std::FILE* to, const Model& model, const Structure& structure, const ModeWork& work,
@@ -298,10 +301,7 @@ Route explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_
   print_title(scene.title, to);
   const Route route = route_of(*model, options);
   if (route.is_projected) {
-    print_parameters(to, *model, traced);
-    print_data(to, *model);
-    print_effects(to, *model);
-    print_states(to, *model);
+    print_model(to, *model, traced);
     print_route(route, estimate_projection(*model, options, solver), options, to);
     if (sensitivity) explain_sensitivity(to, scene, option_texts);
     return route;
@@ -321,10 +321,7 @@ Route explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_
     sentences.insert(sentences.end(), free.begin(), free.end());
     for (const std::string& sentence : sentences) std::fprintf(to, "  %s\n", sentence.c_str());
   }
-  print_parameters(to, *model, traced);
-  print_data(to, *model);
-  print_effects(to, *model);
-  print_states(to, *model);
+  print_model(to, *model, traced);
   print_trims(to, *model, point);
   print_structure(to, structure, model->n_constraints() > 0, describe(parts), options.parameter);
   const int cheapest = cheapest_order({sizes.freedoms, options.certify}, options.tolerance);

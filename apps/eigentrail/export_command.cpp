@@ -17,11 +17,9 @@
 namespace eigentrail::app {
 namespace {
 
-struct ExportTable : Records {
-  ExportTable(std::string of_file, std::vector<std::string> names)
-      : Records{std::move(names), {}, ""}, name(std::move(of_file)) {}
-
+struct ExportTable {
   std::string name;  ///< of the file, without ending
+  Records records;
 };
 
 /// The eigenvalues at a place of the path.
@@ -74,10 +72,9 @@ std::vector<Place> equidistant_places(const LociFile& loci, int points) {
 /// certified, and errors of the data where the file has them. The places are the stored points, or `points`
 /// equidistant values of the parameter, at which the dense output is evaluated; where the path turns back,
 /// every passage of a value is a place.
-ExportTable loci_table(const LociFile& loci, std::optional<int> points) {
-  ExportTable table{"loci",
-                    {"place", loci.parameter, "mode", "name", "real", "imag", "natural_frequency",
-                     "damped_frequency", "damping_ratio", "log_decrement", "certified"}};
+Records loci_table(const LociFile& loci, std::optional<int> points) {
+  Records table{{"place", loci.parameter, "mode", "name", "real", "imag", "natural_frequency",
+                 "damped_frequency", "damping_ratio", "log_decrement", "certified"}};
   if (loci.data_errors) table.columns.insert(table.columns.end(), {"interpolation_error", "digits_error"});
   const std::vector<Place> places = points ? equidistant_places(loci, *points) : stored_places(loci);
   for (std::size_t number = 0; number < places.size(); ++number) {
@@ -93,18 +90,17 @@ ExportTable loci_table(const LociFile& loci, std::optional<int> points) {
                             certified_at(loci, place, mode)});
       if (!loci.data_errors) continue;
       const auto step = static_cast<Eigen::Index>(step_of(loci, place, mode));
-      table.rows.back().emplace_back(loci.data_errors->interpolation(step, i));
-      table.rows.back().emplace_back(loci.data_errors->digits(step, i));
+      table.rows.back().insert(table.rows.back().end(),
+                               {loci.data_errors->interpolation(step, i), loci.data_errors->digits(step, i)});
     }
   }
   return table;
 }
 
 /// All events with their sensitivities (real and imaginary part) and shifts, per parameter of the scene.
-ExportTable events_table(const LociFile& loci) {
-  ExportTable table{"events",
-                    {"kind", loci.parameter, "real", "imag", "modes", "direction", "value", "half_width",
-                     "puiseux_real", "puiseux_imag"}};
+Records events_table(const LociFile& loci) {
+  Records table{{"kind", loci.parameter, "real", "imag", "modes", "direction", "value", "half_width",
+                 "puiseux_real", "puiseux_imag"}};
   if (loci.data_errors) table.columns.insert(table.columns.end(), {"interval_from", "interval_to"});
   for (const std::string& name : loci.scene_parameters)
     table.columns.insert(table.columns.end(),
@@ -114,25 +110,19 @@ ExportTable events_table(const LociFile& loci) {
     std::vector<Cell> row{event.kind,           event.parameter,        event.s.real(), event.s.imag(),
                           event.modes,          count(event.direction), event.value,    event.half_width,
                           event.puiseux.real(), event.puiseux.imag()};
-    if (loci.data_errors) {
-      row.emplace_back(loci.data_errors->intervals[i].from);
-      row.emplace_back(loci.data_errors->intervals[i].to);
-    }
-    for (Eigen::Index q = 0; q < event.shift.size(); ++q) {
-      row.emplace_back(event.sensitivity[q].real());
-      row.emplace_back(event.sensitivity[q].imag());
-      row.emplace_back(event.shift[q]);
-    }
+    if (loci.data_errors)
+      row.insert(row.end(), {loci.data_errors->intervals[i].from, loci.data_errors->intervals[i].to});
+    for (Eigen::Index q = 0; q < event.shift.size(); ++q)
+      row.insert(row.end(), {event.sensitivity[q].real(), event.sensitivity[q].imag(), event.shift[q]});
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 /// Stable ranges with their ends; without rows if the file has none.
-ExportTable ranges_table(const LociFile& loci) {
-  ExportTable table{"stable_ranges",
-                    {"kind", "from", "to", "cause_from", "cause_to", "margin_from", "margin_to", "mode_from",
-                     "mode_to", "least_margin", "largest_margin", "largest_at", "whole_model"}};
+Records ranges_table(const LociFile& loci) {
+  Records table{{"kind", "from", "to", "cause_from", "cause_to", "margin_from", "margin_to", "mode_from",
+                 "mode_to", "least_margin", "largest_margin", "largest_at", "whole_model"}};
   if (!loci.ranges) return table;
   const auto mode = [](int number) { return number < 0 ? Cell(NAN) : count(number + 1); };
   for (const StableRange& range : *loci.ranges) {
@@ -145,8 +135,8 @@ ExportTable ranges_table(const LociFile& loci) {
 }
 
 /// Mode shapes at the stored points: a row per coordinate.
-ExportTable shapes_table(const LociFile& loci) {
-  ExportTable table{"mode_shapes", {"place", loci.parameter, "mode", "name", "coordinate", "real", "imag"}};
+Records shapes_table(const LociFile& loci) {
+  Records table{{"place", loci.parameter, "mode", "name", "coordinate", "real", "imag"}};
   const std::size_t n = loci.coordinates.size();
   read_mode_shapes(loci, [&](std::size_t node, std::span<const Complex> shapes) {
     for (std::size_t mode = 0; mode < loci.modes.size(); ++mode) {
@@ -177,18 +167,18 @@ constexpr const char* exported = "export of eigentrail";
 constexpr std::string_view json_signature = "{\n  \"format\": \"eigentrail-export\"";
 
 /// Whether a file is a table with the same first columns.
-bool is_table(const std::string& path, const ExportTable& table) {
+bool is_table(const std::string& path, const Records& table) {
   return begins_with(path, table.columns[0] + "," + table.columns[1] + "," + table.columns[2]);
 }
 
 /// All tables of the file; `only_loci`: just the first.
 std::vector<ExportTable> tables_of(const LociFile& loci, const ExportArguments& arguments, bool only_loci) {
   const std::optional<int> points = arguments.points > 0 ? std::optional(arguments.points) : std::nullopt;
-  std::vector<ExportTable> tables{loci_table(loci, points)};
+  std::vector<ExportTable> tables{{"loci", loci_table(loci, points)}};
   if (only_loci) return tables;
-  tables.push_back(events_table(loci));
-  tables.push_back(ranges_table(loci));
-  if (!arguments.no_shapes) tables.push_back(shapes_table(loci));
+  tables.push_back({"events", events_table(loci)});
+  tables.push_back({"stable_ranges", ranges_table(loci)});
+  if (!arguments.no_shapes) tables.push_back({"mode_shapes", shapes_table(loci)});
   return tables;
 }
 
@@ -199,7 +189,7 @@ void write_json(const LociFile& loci, const std::vector<ExportTable>& tables,
                    {exported, [](const std::string& path) { return begins_with(path, json_signature); }});
   nlohmann::ordered_json data{
       {"format", "eigentrail-export"}, {"parameter", loci.parameter}, {"unit", loci.parameter_unit}};
-  for (const ExportTable& table : tables) data[table.name] = json_of(table);
+  for (const ExportTable& table : tables) data[table.name] = json_of(table.records);
   const std::string text = data.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   write_durably(output.path, {text}, output.existing());
   if (!output.quiet) std::printf("wrote %s\n", output.path.c_str());
@@ -219,12 +209,12 @@ void write_csv(const std::vector<ExportTable>& tables, const ExportArguments& ar
   }
   for (const ExportTable& table : tables)
     check_new_output(path_of(table), output.force,
-                     {exported, [&table](const std::string& path) { return is_table(path, table); }});
+                     {exported, [&table](const std::string& path) { return is_table(path, table.records); }});
   for (const ExportTable& table : tables) {
-    write_durably(path_of(table), {csv_text(table)}, output.existing());
+    write_durably(path_of(table), {csv_text(table.records, "")}, output.existing());
+    const std::size_t rows = table.records.rows.size();
     if (!output.quiet)
-      std::printf("wrote %s (%zu row%s)\n", path_of(table).c_str(), table.rows.size(),
-                  table.rows.size() == 1 ? "" : "s");
+      std::printf("wrote %s (%zu row%s)\n", path_of(table).c_str(), rows, rows == 1 ? "" : "s");
   }
 }
 

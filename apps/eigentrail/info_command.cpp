@@ -102,7 +102,7 @@ void print_for_people(const LociFile& loci) {
     const double share = loci.certified_share(i);
     rows.push_back({loci.modes[i], cell_text(loci.mode_names[i]), end_value(0, i),
                     end_value(static_cast<Eigen::Index>(loci.n_nodes()) - 1, i),
-                    std::isnan(share) ? "-" : rounded(100.0 * share, 4) + " %",
+                    std::isnan(share) ? "-" : percent(share, 4),
                     rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),
                     rounded(column_maximum(loci.condition, i, loci.modes.size()), 3)});
   }

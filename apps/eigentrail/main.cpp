@@ -73,8 +73,7 @@ std::string unknown_option(const CLI::App& program, const CLI::App& command, con
     return text + "did you mean '" + meant + "'?";
   std::string others;
   for (const CLI::App* other : program.get_subcommands([](const CLI::App*) { return true; })) {
-    const std::vector<std::string> options = options_of(*other);
-    if (std::find(options.begin(), options.end(), name) != options.end())
+    if (other->get_option_no_throw(name) != nullptr)
       others += (others.empty() ? "" : ", ") + other->get_name();
   }
   if (!others.empty()) return text + "it is an option of " + others;

@@ -89,10 +89,6 @@ void read_grid(const std::string& text, MapOptions& options) {
   options.n_first = *first;
 }
 
-std::string percent(std::size_t part, std::size_t whole) {
-  return rounded(100.0 * static_cast<double>(part) / static_cast<double>(whole), 3) + " %";
-}
-
 void print_shares(const StabilityMap& map, const MapTotals& totals) {
   double least = INFINITY, largest = -INFINITY;
   for (const MapLine& line : map.lines) {
@@ -102,16 +98,18 @@ void print_shares(const StabilityMap& map, const MapTotals& totals) {
       largest = std::max(largest, margin);
     }
   }
-  std::printf("  stable %s, ", percent(totals.stable, totals.cells).c_str());
-  if (totals.marginal > 0) std::printf("marginal %s, ", percent(totals.marginal, totals.cells).c_str());
-  std::printf("unstable %s, unknown %s (%zu of %zu cells)\n", percent(totals.unstable, totals.cells).c_str(),
-              percent(totals.unknown, totals.cells).c_str(), totals.unknown, totals.cells);
+  const auto share = [&](std::size_t part) {
+    return percent(static_cast<double>(part) / static_cast<double>(totals.cells), 3);
+  };
+  std::printf("  stable %s, ", share(totals.stable).c_str());
+  if (totals.marginal > 0) std::printf("marginal %s, ", share(totals.marginal).c_str());
+  std::printf("unstable %s, unknown %s (%zu of %zu cells)\n", share(totals.unstable).c_str(),
+              share(totals.unknown).c_str(), totals.unknown, totals.cells);
   if (least <= largest)
     std::printf("  margin from %s to %s 1/s\n", rounded(least).c_str(), rounded(largest).c_str());
 }
 
-/// `seconds`: wall time; NaN if it is not known.
-void print_work(const StabilityMap& map, const MapTotals& totals, double seconds) {
+void print_work(const StabilityMap& map, const MapTotals& totals, std::optional<double> seconds) {
   Eigen::Index size = 0;
   for (const MapLine& line : map.lines) size = std::max(size, line.n_independent);
   const double cells = static_cast<double>(totals.cells);
@@ -119,12 +117,12 @@ void print_work(const StabilityMap& map, const MapTotals& totals, double seconds
               map.lines.size(), totals.cells, static_cast<unsigned long long>(totals.factorizations),
               static_cast<long long>(size) + 1,
               rounded(static_cast<double>(totals.factorizations) / cells, 3).c_str());
-  if (std::isnan(seconds)) return;
-  std::printf("  time  %s s: %s ms per cell\n", rounded(seconds, 3).c_str(),
-              rounded(1e3 * seconds / cells, 3).c_str());
+  if (!seconds) return;
+  std::printf("  time  %s s: %s ms per cell\n", rounded(*seconds, 3).c_str(),
+              rounded(1e3 * *seconds / cells, 3).c_str());
 }
 
-void print_summary(const MapSetup& setup, const StabilityMap& map, double seconds) {
+void print_summary(const MapSetup& setup, const StabilityMap& map, std::optional<double> seconds) {
   const TraceSetup& trace = setup.trace;
   const MapOptions& options = setup.options;
   const auto window = [&](const std::string& name, double from, double to) {
@@ -154,16 +152,16 @@ std::string failure(const StabilityMap& map) {
 }
 
 /// Writes the map of lines that have all been computed, and prints its summary.
-int finish_map(const MapSetup& setup, const SharedRun& run, const std::vector<std::string>& lines,
-               const OutputChoice& output, double seconds) {
-  const StabilityMap map = map_of(setup, lines);
+int finish_map(const MapSetup& setup, const SharedRun& run, const ComputedRun& lines,
+               const OutputChoice& output) {
+  const StabilityMap map = map_of(setup, lines.pieces);
   const MapTotals totals = total(map);
   if (totals.unknown == totals.cells) {
     std::fprintf(stderr, "eigentrail: %s: %s\n", setup.trace.scene.path.c_str(),
                  printable(failure(map)).c_str());
     return numbers_failed;
   }
-  write_result(output, run, map_file(setup, map), [&] { print_summary(setup, map, seconds); });
+  write_result(output, run, map_file(setup, map), [&] { print_summary(setup, map, lines.seconds); });
   return done;
 }
 
@@ -180,8 +178,7 @@ SharedRun shared_run(const MapSetup& setup, const MapArguments& arguments) {
   return run;
 }
 
-SharedJob map_job(std::shared_ptr<const MapSetup> setup, SharedRun run, const OutputChoice& output,
-                  const Team& team) {
+SharedJob map_job(std::shared_ptr<const MapSetup> setup, SharedRun run, const OutputChoice& output) {
   SharedJob job{std::move(run), hdf5_format(map_format, "stability map"), setup->options.jobs};
   job.compute = [setup](const std::vector<std::size_t>& numbers, Workers& workers, ProgressBar& progress) {
     return map_lines(*setup, numbers, workers, [&](std::size_t finished) {
@@ -189,9 +186,8 @@ SharedJob map_job(std::shared_ptr<const MapSetup> setup, SharedRun run, const Ou
                       static_cast<int>(finished), "lines");
     });
   };
-  job.finish = [setup, run = job.run, &output, &team](const std::vector<std::string>& lines, Workers&,
-                                                      std::optional<double> seconds) {
-    return team.leads() ? finish_map(*setup, run, lines, output, seconds.value_or(NAN)) : done;
+  job.finish = [setup, run = job.run, &output](const ComputedRun& lines) {
+    return lines.leads ? finish_map(*setup, run, lines, output) : done;
   };
   return job;
 }
@@ -206,13 +202,12 @@ int run_map(MapArguments& arguments, Team& team) {
       prepare_map(std::move(scene), arguments.overrides(), arguments.window));
   warn_of_unused(setup->trace.scene, *setup->trace.model);
   check_map_names(*setup);
-  return carry_out(map_job(setup, shared_run(*setup, arguments), arguments.output, team), arguments.output,
-                   team);
+  return carry_out(map_job(setup, shared_run(*setup, arguments), arguments.output), arguments.output, team);
 }
 
 }  // namespace
 
-SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
+SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output) {
   MapOptions options;
   options.second = run.setting("--second").value_or("");
   options.from = number_of(run, "--second-from");
@@ -226,7 +221,7 @@ SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output, const T
   }
   return map_job(std::make_shared<const MapSetup>(read_map_setup(
                      parse_scene(run.setting("scene").value_or(""), run.scene_path), overrides, options)),
-                 run, output, team);
+                 run, output);
 }
 
 void add_map(CLI::App& program, int& exit_code) {

@@ -28,7 +28,7 @@ int run_merge(MergeArguments& arguments, Team& team) {
   for (const auto& [command, job_of_parts] :
        {std::pair{"map", &map_of_parts}, {"boundary", &boundary_of_parts}, {"sweep", &sweep_of_parts}}) {
     if (run.command != command) continue;
-    SharedJob job = job_of_parts(run, arguments.output, team);
+    SharedJob job = job_of_parts(run, arguments.output);
     job.known = std::move(pieces);
     return carry_out(std::move(job), arguments.output, team);
   }

@@ -21,16 +21,22 @@ constexpr double known_digits = 1e-12;
 
 }  // namespace
 
-int report_error(const std::exception& error) {
-  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  std::fprintf(stderr, "eigentrail: %s\n", no_memory ? "not enough memory" : printable(error.what()).c_str());
+int exit_code_of(const std::exception& error) {
   return dynamic_cast<const InputError*>(&error) != nullptr ? bad_input : numbers_failed;
 }
 
+int report_error(const std::exception& error) {
+  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  std::fprintf(stderr, "eigentrail: %s\n", no_memory ? "not enough memory" : printable(error.what()).c_str());
+  return exit_code_of(error);
+}
+
 std::string rounded(double value, int digits) {
-  std::array<char, 48> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
-  return buffer.data();
+  return short_text(value, digits);
+}
+
+std::string percent(double share, int digits) {
+  return rounded(100.0 * share + 0.0, digits) + " %";
 }
 
 std::string order_text(int order, bool chosen) {

@@ -12,11 +12,17 @@
 
 namespace eigentrail::app {
 
+/// The exit code that belongs to an error.
+int exit_code_of(const std::exception& error);
+
 /// Prints an error. Returns the exit code that belongs to it.
 int report_error(const std::exception& error);
 
 /// A number as text with `digits` significant digits.
 std::string rounded(double value, int digits = 6);
+
+/// A share of one as text, for example "12.5 %".
+std::string percent(double share, int digits);
 
 /// "order 3", or "order 3 (auto)" if the program has chosen the order (`chosen`).
 std::string order_text(int order, bool chosen);

@@ -23,9 +23,9 @@ std::string csv_line(const std::vector<Cell>& cells, const std::string& unknown)
   return joined(cells, ",", [&](const Cell& cell) { return field(cell, unknown); }) + "\n";
 }
 
-std::string csv_text(const Records& records) {
-  std::string text = csv_line({records.columns.begin(), records.columns.end()}, records.unknown);
-  for (const std::vector<Cell>& row : records.rows) text += csv_line(row, records.unknown);
+std::string csv_text(const Records& records, const std::string& unknown) {
+  std::string text = csv_line({records.columns.begin(), records.columns.end()}, unknown);
+  for (const std::vector<Cell>& row : records.rows) text += csv_line(row, unknown);
   return text;
 }
 
@@ -49,7 +49,7 @@ void print_text_of(const nlohmann::ordered_json& json) {
 
 void print(const Records& records, const PrintedFormat& format) {
   if (format.json) return print_text_of(json_of(records));
-  std::fputs(csv_text(records).c_str(), stdout);
+  std::fputs(csv_text(records, "nan").c_str(), stdout);
 }
 
 }  // namespace eigentrail::app

@@ -21,7 +21,6 @@ Cell count(Integer number) {
 struct Records {
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows = {};
-  std::string unknown = "nan";  ///< what stands in CSV for a number that is not known
 };
 
 /// A line of comma-separated values with its end; texts with commas or quotes are quoted (RFC 4180).
@@ -29,7 +28,7 @@ struct Records {
 std::string csv_line(const std::vector<Cell>& cells, const std::string& unknown);
 
 /// Comma-separated values with a heading.
-std::string csv_text(const Records& records);
+std::string csv_text(const Records& records, const std::string& unknown);
 
 /// A list of objects; numbers that are not known or infinite are null.
 nlohmann::ordered_json json_of(const Records& records);

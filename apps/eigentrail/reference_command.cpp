@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -21,7 +22,7 @@ struct ReferenceArguments {
 std::string heading(const std::string& name) {
   static const std::set<std::string> single = {"trace",   "events", "modes",         "frame",
                                                "gravity", "rotor",  "matrix_family", "sampled_family"};
-  return single.count(name) > 0 ? "[" + name + "]" : "[[" + name + "]]";
+  return single.contains(name) ? "[" + name + "]" : "[[" + name + "]]";
 }
 
 constexpr const char* page_heading =
@@ -154,16 +155,15 @@ int run_reference(const ReferenceArguments& arguments) {
   const std::vector<EffectHelp> all = whole_reference();
   std::vector<std::string> names;
   for (const EffectHelp& table : all) names.push_back(table.name);
-  const std::set<std::string> known(names.begin(), names.end());
   for (const std::string& name : arguments.tables) {
-    if (known.count(name) == 0)
+    if (std::ranges::find(names, name) == names.end())
       throw InputError("no table of a scene is called '" + name + "'; " + suggestion(name, names));
   }
-  const std::set<std::string> wanted(arguments.tables.begin(), arguments.tables.end());
   if (arguments.markdown) std::printf("%s", page_heading);
   for (const EffectHelp& table : all) {
-    if (!wanted.empty() && wanted.count(table.name) == 0) continue;
-    arguments.markdown ? print_markdown(table) : print_text(table);
+    const bool wanted =
+        arguments.tables.empty() || std::ranges::find(arguments.tables, table.name) != arguments.tables.end();
+    if (wanted) arguments.markdown ? print_markdown(table) : print_text(table);
   }
   return done;
 }

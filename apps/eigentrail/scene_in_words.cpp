@@ -163,10 +163,9 @@ std::vector<std::string> names_of(const Model& model, const PathPoint& point, co
 
 std::vector<std::string> in_words(const TraceSetup& setup, const Structure& structure, const Sizes& sizes) {
   std::vector<std::string> sentences = blades_in_words(setup.model->description().rotor);
-  for (std::string& sentence :
-       std::vector<std::string>{freedoms(*setup.model, sizes), prospects(structure),
-                                equilibrium(structure, setup.options.parameter), followed(setup, sizes)})
-    sentences.push_back(std::move(sentence));
+  sentences.insert(sentences.end(),
+                   {freedoms(*setup.model, sizes), prospects(structure),
+                    equilibrium(structure, setup.options.parameter), followed(setup, sizes)});
   return sentences;
 }
 

@@ -88,7 +88,8 @@ int carry_out(SharedJob job, OutputChoice& output, Team& team) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto finish = [&]() -> int {
     if (!output.part)
-      return job.finish(pieces, *workers, job.known.empty() ? std::optional(seconds) : std::nullopt);
+      return job.finish(
+          {pieces, job.known.empty() ? std::optional(seconds) : std::nullopt, *workers, team.leads()});
     return team.leads() ? finish_part(output, job.run, *unfinished) : done;
   };
   return unfinished && team.leads() ? end_run(*unfinished, finish) : finish();

@@ -14,6 +14,14 @@
 
 namespace eigentrail::app {
 
+/// The pieces of a run that have all been computed.
+struct ComputedRun {
+  const std::vector<std::string>& pieces;
+  std::optional<double> seconds;  ///< that computing them took; empty if it is not known
+  Workers& workers;
+  bool leads;  ///< whether this process writes and prints
+};
+
 /// What a command does with the pieces of its run.
 struct SharedJob {
   SharedRun run;        ///< carry_out sets its part
@@ -23,10 +31,9 @@ struct SharedJob {
   std::function<std::vector<std::string>(const std::vector<std::size_t>& numbers, Workers& workers,
                                          ProgressBar& progress)>
       compute = {};
-  /// Makes the output of all pieces, in every process, and writes it in the one that leads. `seconds`: that
-  /// computing them took; empty if it is not known. Returns the exit code.
-  std::function<int(const std::vector<std::string>& pieces, Workers& workers, std::optional<double> seconds)>
-      finish = {};
+  /// Makes the output of all pieces, in every process, and writes it in the one that leads. Returns the exit
+  /// code.
+  std::function<int(const ComputedRun&)> finish = {};
   bool writes = true;              ///< without an output nothing is saved and nothing resumed
   bool leaves_more_files = false;  ///< pieces leave files behind before the first of them is finished
   std::function<void()> check_more_files = [] {};  ///< the same as for the output
@@ -50,8 +57,8 @@ double number_of(const SharedRun& run, const std::string& label);
 
 // The jobs of the commands whose parts can be joined, from the settings of a part. `output` must outlive
 // them.
-SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team);
-SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team);
-SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team);
+SharedJob map_of_parts(const SharedRun& run, const OutputChoice& output);
+SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output);
+SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output);
 
 }  // namespace eigentrail::app

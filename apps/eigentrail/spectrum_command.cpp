@@ -80,7 +80,7 @@ std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
   std::vector<std::string> row{std::to_string(i + 1), complex_text(s.real() + 0.0, s.imag(), 8)};
   if (point.errors) row.push_back(rounded(point.error(i), 2));
   row.insert(row.end(), {rounded(in_hertz(std::abs(s)), 6), rounded(in_hertz(s.imag()), 6),
-                         std::isfinite(ratio) ? rounded(100.0 * ratio + 0.0, 4) + " %" : "-",
+                         std::isfinite(ratio) ? percent(ratio, 4) : "-",
                          std::isfinite(decrement) ? rounded(decrement + 0.0, 4) : "-",
                          rounded(mode.condition, 3), cell_text(mode.what_moves)});
   return row;
@@ -134,12 +134,13 @@ int run_spectrum(const SpectrumArguments& arguments, const SparseSolverMaker& so
   }
   int code = done;
   for (const ShownPoint& point : points) {
-    if (!point.note.empty() && arguments.format)
+    const auto tell = [&](const std::string& text) {
       std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
-                   exact_text(point.p).c_str(), point.note.c_str());
+                   exact_text(point.p).c_str(), printable(text).c_str());
+    };
+    if (!point.note.empty() && arguments.format) tell(point.note);
     if (point.fault.empty()) continue;
-    std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
-                 exact_text(point.p).c_str(), printable(point.fault).c_str());
+    tell(point.fault);
     code = numbers_failed;
   }
   return code;

@@ -22,6 +22,7 @@
 #include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "eigentrail/store/saved_trace.hpp"
+#include "output.hpp"
 #include "records.hpp"
 #include "scene_arguments.hpp"
 #include "shared_job.hpp"
@@ -175,11 +176,8 @@ SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settin
     project_if_large(setup.model, setup.options);
     check_parameter_name(setup.scene, setup.options.parameter);
     trace_into(row, setup, path, saving);
-  } catch (const InputError& error) {
-    row.exit_code = bad_input;
-    row.reason = error.what();
   } catch (const std::exception& error) {
-    row.exit_code = numbers_failed;
+    row.exit_code = exit_code_of(error);
     row.reason = error.what();
   }
   return row;
@@ -295,11 +293,10 @@ SharedRun shared_run(const Scene& scene, const SweepArguments& arguments, const 
   return run;
 }
 
-SharedJob sweep_job(SharedRun run, const OutputChoice& output, const Team& team) {
+SharedJob sweep_job(SharedRun run, const OutputChoice& output) {
   SharedJob job{std::move(run), index_format};
-  job.finish = [header = job.run.setting("header").value_or(""), &output, &team](
-                   const std::vector<std::string>& lines, Workers&, std::optional<double>) {
-    return team.leads() ? finish_sweep(header, lines, output) : done;
+  job.finish = [header = job.run.setting("header").value_or(""), &output](const ComputedRun& lines) {
+    return lines.leads ? finish_sweep(header, lines.pieces, output) : done;
   };
   return job;
 }
@@ -313,7 +310,7 @@ int run_sweep(SweepArguments& arguments, Team& team) {
   const OptionTexts options = arguments.overrides();
   OutputChoice list = arguments.output;
   list.path = (folder / (list.part ? part_ending(*list.part) : "index.csv")).string();
-  SharedJob job = sweep_job(shared_run(scene, arguments, runs), list, team);
+  SharedJob job = sweep_job(shared_run(scene, arguments, runs), list);
   job.jobs = arguments.jobs;
   job.leaves_more_files = true;
   job.is_whole = [&] { return has_index(list.path, path, scene, runs, options); };
@@ -340,8 +337,8 @@ int run_sweep(SweepArguments& arguments, Team& team) {
 
 }  // namespace
 
-SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output, const Team& team) {
-  SharedJob job = sweep_job(run, output, team);
+SharedJob sweep_of_parts(const SharedRun& run, const OutputChoice& output) {
+  SharedJob job = sweep_job(run, output);
   job.compute = [](const std::vector<std::size_t>& numbers, Workers& workers, ProgressBar&) {
     return workers.compute({piece_kind, numbers, {}});
   };

@@ -47,10 +47,8 @@ template <class Work>
 Outcome outcome_of(Work&& work) {
   try {
     return {done, work()};
-  } catch (const InputError& error) {
-    return {bad_input, error.what()};
   } catch (const std::exception& error) {
-    return {numbers_failed, error.what()};
+    return {exit_code_of(error), error.what()};
   }
 }
 

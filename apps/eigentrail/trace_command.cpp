@@ -28,84 +28,65 @@ struct TraceArguments : SceneArguments {
   SaveOptions saving;
 };
 
-/// A trace and its loci file, from the start or resumed.
-class TraceRun {
- public:
-  TraceRun(const TraceArguments& arguments, const TraceSetup& setup)
-      : arguments_(arguments),
-        setup_(setup),
-        progress_(arguments.output.quiet),
-        recorded_(setup,
-                  {[this](const Checkpoint& checkpoint, int points) { return goes_on(checkpoint, points); },
-                   [this](int points) { note_save(points); }},
-                  arguments.output.path, arguments.saving) {}
+/// Completes the file of a trace that has ended, and prints the summary.
+int finish_trace(const TraceArguments& arguments, const TraceSetup& setup, RecordedTrace& recorded) {
+  const std::string& output = arguments.output.path;
+  const Findings found = recorded.find();
+  recorded.finish(found);
+  const TraceResult& result = recorded.result();
+  if (!arguments.output.quiet) {
+    const DataErrors* errors = found.errors ? &*found.errors : nullptr;
+    print_summary({setup, result, found.path, recorded.writer()->mode_names(), found.ranges, errors},
+                  arguments.verbose);
+    std::printf("wrote %s; next: eigentrail report %s -o %s\n", output.c_str(), output.c_str(),
+                std::filesystem::path(output).replace_extension(".html").c_str());
+  }
+  if (result.status == TraceStatus::completed) return done;
+  std::fprintf(stderr, "eigentrail: %s; the points before it are in %s\n", result.message.c_str(),
+               output.c_str());
+  return numbers_failed;
+}
 
-  /// Runs the trace to its end. If the file cannot be written, throws an error that says how many points are
-  /// saved.
-  int run(const std::optional<SavedTrace>& saved) try {
-    const TraceResult& result = saved ? recorded_.resume(*saved) : recorded_.begin();
-    if (!has_started(result.status)) throw InputError(setup_.scene.path + ": " + result.message);
-    return end(result);
+/// Runs a trace to its end, from the start or from what is saved. If the file cannot be written, throws an
+/// error that says how many points are saved.
+int trace_to_file(const TraceArguments& arguments, const TraceSetup& setup,
+                  const std::optional<SavedTrace>& saved) {
+  const TraceOptions& options = setup.options;
+  const std::string& output = arguments.output.path;
+  ProgressBar progress(arguments.output.quiet);
+  Interruption interruption;
+  int saved_points = 0;
+  const auto goes_on = [&](const Checkpoint& checkpoint, int points) {
+    progress.update((checkpoint.so_far().reached - options.from) / (options.to - options.from), points);
+    if (!interruption) return true;
+    interruption.save_in_peace();
+    return false;
+  };
+  const auto note_save = [&](int points) {
+    saved_points = points;
+    Interruption::has_saved();
+  };
+  try {
+    RecordedTrace recorded(setup, {goes_on, note_save}, output, arguments.saving);
+    const TraceResult& result = saved ? recorded.resume(*saved) : recorded.begin();
+    if (!has_started(result.status)) throw InputError(setup.scene.path + ": " + result.message);
+    interruption.save_in_peace();
+    progress.finish();
+    if (result.status != TraceStatus::stopped) return finish_trace(arguments, setup, recorded);
+    std::fprintf(stderr,
+                 "eigentrail: interrupted at %s = %s; %d points are in %s; the same command with --resume "
+                 "goes on\n",
+                 options.parameter.c_str(), exact_text(result.reached).c_str(), result.nodes, output.c_str());
+    return interruption.exit_code();
   } catch (const WriteError& error) {
-    progress_.finish();
-    const std::string& output = arguments_.output.path;
+    progress.finish();
     std::string message = output + ": cannot be written on: " + error.what() + "; ";
-    message += saved_points_ > 0 ? std::to_string(saved_points_) + " points are in " + output +
-                                       "; make room, then the same command with --resume goes on"
-                                 : "nothing was saved";
+    message += saved_points > 0 ? std::to_string(saved_points) + " points are in " + output +
+                                      "; make room, then the same command with --resume goes on"
+                                : "nothing was saved";
     throw std::runtime_error(message);
   }
-
- private:
-  bool goes_on(const Checkpoint& checkpoint, int points) {
-    const TraceOptions& options = setup_.options;
-    progress_.update((checkpoint.so_far().reached - options.from) / (options.to - options.from), points);
-    if (!interruption_) return true;
-    interruption_.save_in_peace();
-    interrupted_ = true;
-    return false;
-  }
-
-  void note_save(int points) {
-    saved_points_ = points;
-    Interruption::has_saved();
-  }
-
-  int end(const TraceResult& result) {
-    interruption_.save_in_peace();
-    progress_.finish();
-    const std::string& output = arguments_.output.path;
-    if (interrupted_) {
-      std::fprintf(stderr,
-                   "eigentrail: interrupted at %s = %s; %d points are in %s; the same command with --resume "
-                   "goes on\n",
-                   setup_.options.parameter.c_str(), exact_text(result.reached).c_str(), result.nodes,
-                   output.c_str());
-      return interruption_.exit_code();
-    }
-    const Findings found = recorded_.find();
-    recorded_.finish(found);
-    if (!arguments_.output.quiet) {
-      const DataErrors* errors = found.errors ? &*found.errors : nullptr;
-      print_summary({setup_, result, found.path, recorded_.writer()->mode_names(), found.ranges, errors},
-                    arguments_.verbose);
-      std::printf("wrote %s; next: eigentrail report %s -o %s\n", output.c_str(), output.c_str(),
-                  std::filesystem::path(output).replace_extension(".html").c_str());
-    }
-    if (result.status == TraceStatus::completed) return done;
-    std::fprintf(stderr, "eigentrail: %s; the points before it are in %s\n", result.message.c_str(),
-                 output.c_str());
-    return numbers_failed;
-  }
-
-  const TraceArguments& arguments_;
-  const TraceSetup& setup_;
-  ProgressBar progress_;
-  Interruption interruption_;
-  bool interrupted_ = false;
-  int saved_points_ = 0;  ///< number of points in the saved file
-  RecordedTrace recorded_;
-};
+}
 
 void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
   const auto* family = dynamic_cast<const ProjectedFamily*>(setup.model.get());
@@ -143,7 +124,7 @@ int run_trace(TraceArguments& arguments, const SparseSolverMaker& solver) {
       warn(output + ": was computed with another kernel of BLAS (" + saved->other_kernel +
            "); the last digits differ from those of a trace on one machine");
   }
-  return TraceRun(arguments, setup).run(saved);
+  return trace_to_file(arguments, setup, saved);
 }
 
 }  // namespace

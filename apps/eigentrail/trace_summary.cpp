@@ -69,8 +69,7 @@ std::vector<std::string> motion_cells(Complex s, const FrequencyUnit& unit, doub
   s = without_rounding(s, reference);
   if (s == 0.0) return {"0", "-"};
   if (s.imag() == 0.0) return {"-", rounded(s.real(), 6) + " 1/s"};
-  return {rounded(std::abs(s.imag()) / unit.factor, 6),
-          rounded(-100.0 * s.real() / std::abs(s) + 0.0, 4) + " %"};
+  return {rounded(std::abs(s.imag()) / unit.factor, 6), percent(-s.real() / std::abs(s), 4)};
 }
 
 void print_modes(const TraceSummary& trace, const std::vector<Permanence>& permanence,
@@ -147,10 +146,9 @@ std::vector<std::string> critical_speed_row(const TraceSummary& trace, const Fou
 /// "7 % from the operating range, 15 % wanted"; empty if a critical speed keeps its distance.
 std::string separation_text(const Separation& found) {
   if (!found.is_too_close()) return "";
-  const auto percent = [](double fraction) { return rounded(100.0 * fraction, 3) + " %"; };
   const std::string range = rounded(found.range.from, 12) + " to " + rounded(found.range.to, 12);
   if (found.inside) return "in the operating range " + range;
-  return percent(found.distance) + " from the operating range " + range + ", " + percent(found.wanted) +
+  return percent(found.distance, 3) + " from the operating range " + range + ", " + percent(found.wanted, 3) +
          " wanted";
 }
 
@@ -171,7 +169,7 @@ void print_separations(const TraceSummary& trace) {
   if (is_close) return;
   std::printf("  margin  all critical speeds keep their distance from the operating range %s (%s)\n",
               ranges_text(operating).c_str(),
-              operating.margin ? (rounded(100.0 * *operating.margin, 3) + " %").c_str() : "API 684");
+              operating.margin ? percent(*operating.margin, 3).c_str() : "API 684");
 }
 
 /// Prints onsets of instability first, then critical speeds, then all others.

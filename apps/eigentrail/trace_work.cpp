@@ -8,10 +8,6 @@
 namespace eigentrail::app {
 namespace {
 
-std::string percent(double part, double whole) {
-  return whole > 0.0 ? rounded(100.0 * part / whole, 2) + " %" : "0 %";
-}
-
 void print_work(const TraceResult& result) {
   const RunCounts& counts = result.counts;
   const double per_mode_and_step =
@@ -55,7 +51,8 @@ void print_work(const TraceResult& result) {
                                       {"matching", counts.matching_seconds},
                                       {"events", counts.events_seconds},
                                       {"output", counts.output_seconds}})
-    shares += (shares.empty() ? "" : ", ") + std::string(what) + " " + percent(seconds, result.seconds);
+    shares += (shares.empty() ? "" : ", ") + std::string(what) + " " +
+              percent(result.seconds > 0.0 ? seconds / result.seconds : 0.0, 2);
   std::printf("  time  %s s: %s\n", rounded(result.seconds, 3).c_str(), shares.c_str());
 }
 

@@ -6,6 +6,7 @@
 
 #include "accuracy/eigen_triples.hpp"
 #include "continuation/events/criterion.hpp"
+#include "core/bisection.hpp"
 #include "core/gaps.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 
@@ -39,7 +40,6 @@ const SampleErrors* errors_along(const Model& model, const TraceOptions& options
 
 /// The errors of all modes at one place.
 struct ErrorsAt {
-  double p = 0.0;
   Vector interpolation, rough, digits;
   Vector growth, rough_growth;  ///< interpolation and rough of Re s
   Vector distance;              ///< of each eigenvalue from the next one
@@ -73,7 +73,7 @@ class ErrorSampler {
   /// wherever the smooth error between the two samples has this share of its largest value.
   ErrorsAt at(double p, const ComplexVector& s, double shape = 1.0) const {
     const Vector none = Vector::Constant(s.size(), nan);
-    ErrorsAt result{p, none, none, none, none, none, none};
+    ErrorsAt result{none, none, none, none, none, none};
     const std::vector<EigenTriple> all = triples_at(p);
     if (all.empty()) return result;
     std::vector<EigenTriple> chosen;
@@ -207,11 +207,9 @@ class IntervalWalk {
       outside = std::clamp(inside + direction / places_of_step, 0.0, last);
     } while (outside != inside && may_vanish(event, outside));
     constexpr int halvings = 40;
-    for (int i = 0; i < halvings && outside != inside; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      (may_vanish(event, middle) ? inside : outside) = middle;
-    }
-    return path_.parameter_at(path_.position_at(outside));
+    const Bisected end =
+        bisected(inside, outside, halvings, [&](double middle) { return may_vanish(event, middle); });
+    return path_.parameter_at(path_.position_at(end.first_without));
   }
 
   const TraceOptions& options_;

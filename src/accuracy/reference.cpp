@@ -189,6 +189,12 @@ void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpe
 
 }  // namespace
 
+std::vector<Complex> ReferenceSpectrum::nearest_doubles() const {
+  std::vector<Complex> doubles;
+  for (const ExtendedComplex& value : s) doubles.push_back(to_double(value));
+  return doubles;
+}
+
 ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess) {
   ReferenceSpectrum result;
   RunCounts counts;

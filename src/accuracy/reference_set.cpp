@@ -48,12 +48,6 @@ Guide trace_guide(const TraceSetup& setup) {
   return guide;
 }
 
-std::vector<Complex> nearest_doubles(const ReferenceSpectrum& reference) {
-  std::vector<Complex> s;
-  for (const ExtendedComplex& value : reference.s) s.push_back(to_double(value));
-  return s;
-}
-
 /// Whether the spectrum belongs to the passage of the guide at this position.
 bool same(const Guide& guide, const PathPosition& position, const std::vector<Complex>& spectrum) {
   const PathStep& step = guide.path.steps[position.step];
@@ -88,7 +82,7 @@ ReferenceSet reference_set(const TraceSetup& setup, const std::vector<double>& p
     bool solved = true;
     for (const PathPosition& position : guide.path.positions(p)) {
       const ReferenceSpectrum reference = reference_spectrum(problem, p, guide.guess(position));
-      sample.passages.push_back(nearest_doubles(reference));
+      sample.passages.push_back(reference.nearest_doubles());
       solved = solved && reference.status == ReferenceStatus::converged &&
                same(guide, position, sample.passages.back());
       if (solved) set.correction = std::max(set.correction, reference.correction);

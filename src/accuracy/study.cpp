@@ -1,6 +1,7 @@
 #include "eigentrail/accuracy/study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "core/archive.hpp"
@@ -19,20 +20,9 @@ bool all(const Values& values, Within within) {
 }  // namespace
 
 std::string method_name(Method method) {
-  switch (method) {
-    case Method::trace:
-      return "eigentrail";
-    case Method::trace_uncertified:
-      return "eigentrail, no certificate";
-    case Method::qz:
-      return "QZ";
-    case Method::zero_order:
-      return "corrector, zero-order";
-    case Method::secant:
-      return "corrector, secant";
-    default:
-      return "corrector, tangent";
-  }
+  return std::array{"eigentrail",        "eigentrail, no certificate", "QZ", "corrector, zero-order",
+                    "corrector, secant", "corrector, tangent"}
+      .at(static_cast<std::size_t>(method));
 }
 
 std::string run_name(const MeasuredRun& run) {
@@ -109,12 +99,6 @@ Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& wo
   return study;
 } catch (const ArchiveError& error) {
   throw InputError(std::string("a measurement is damaged: ") + error.what());
-}
-
-Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
-                     const std::function<void(int, int)>& progress) {
-  Threads one(1);
-  return accuracy_study(setup, options, one, progress);
 }
 
 }  // namespace eigentrail

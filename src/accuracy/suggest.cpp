@@ -14,10 +14,10 @@ namespace {
 /// Eigenvalues below this share of the median |s| count as zero, as in a trace.
 constexpr double share_of_median = 1e-3;
 
-double reference_of(const TraceOptions& options, const ComplexVector& s) {
+double reference_of(const TraceOptions& options, const std::vector<OperatingMode>& modes) {
   if (options.reference) return *options.reference;
   std::vector<double> sizes;
-  for (const Complex one : s) sizes.push_back(std::abs(one));
+  for (const OperatingMode& mode : modes) sizes.push_back(std::abs(mode.s));
   if (sizes.empty()) return 0.0;
   std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
   return share_of_median * sizes[sizes.size() / 2];
@@ -28,16 +28,15 @@ Suggestion suggestion_at(const TraceSetup& setup, double p) {
   const OperatingPoint point = operating_points(setup, {p}).front();
   if (point.none_in_band) return {p, 0.0, {}, {}};
   if (!point.fault.empty()) throw InputError(setup.scene.path + ": " + point.fault);
-  ComplexVector s(static_cast<Eigen::Index>(point.modes.size()));
-  for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = point.modes[static_cast<std::size_t>(i)].s;
-  const Matrix errors = *data_errors_at(*setup.model, setup.options, p, s);
-  const double reference = reference_of(setup.options, s);
+  const Matrix errors = *data_errors_at(*setup.model, setup.options, point);
+  const double reference = reference_of(setup.options, point.modes);
   Suggestion result{p, 0.0, {}, point.note};
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    const double relative = errors(i, 0) / std::max(std::abs(s[i]), reference);
+  for (std::size_t i = 0; i < point.modes.size(); ++i) {
+    const Complex s = point.modes[i].s;
+    const double relative = errors(static_cast<Eigen::Index>(i), 0) / std::max(std::abs(s), reference);
     if (!(relative > result.error)) continue;
     result.error = relative;
-    result.s = s[i];
+    result.s = s;
   }
   return result;
 }

@@ -253,10 +253,7 @@ bool Hdf5Writer::has(const std::string& dataset) const {
 
 Shape Hdf5Writer::shape(const std::string& dataset) const {
   const hid_t set = implementation_->dataset(dataset);
-  const Handle space(H5Dget_space(set), H5Sclose, "read the shape of " + dataset);
-  std::vector<hsize_t> dims(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-  check(H5Sget_simple_extent_dims(space, dims.data(), nullptr), "read the shape of " + dataset);
-  return {dims.begin(), dims.end()};
+  return shape_of(Handle(H5Dget_space(set), H5Sclose, "read the shape of " + dataset), dataset);
 }
 
 }  // namespace eigentrail

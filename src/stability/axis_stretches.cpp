@@ -1,6 +1,7 @@
 #include "eigentrail/stability/axis_stretches.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -9,7 +10,6 @@
 
 #include "eigentrail/continuation/eigenvalue_error.hpp"
 #include "eigentrail/stability/permanent_modes.hpp"
-#include "stability/infinite_size.hpp"
 
 namespace eigentrail {
 namespace {
@@ -22,6 +22,13 @@ constexpr double same_axis_place = 1e-9;
 /// meet and at folds the trace stores a point, so that these events are at the nearer end of their step if it
 /// is within this share of the parameter range (MeetingThresholds::at_point, with a margin).
 constexpr double on_node = 1e-8;
+/// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
+constexpr double infinite_size = 1e9;
+/// A mode that begins or ends and is larger than this multiple of the reference comes from infinity or runs
+/// there: typical eigenvalues are a thousand references, and modes that run to infinity end a hundred times
+/// above the largest one at the start.
+constexpr double large_size = 1e4;
+
 /// How samples are judged: the accuracy of the dense output, and per mode whether it is left out, because its
 /// eigenvalue is zero throughout.
 struct Judging {
@@ -350,17 +357,7 @@ void include_unfollowed(const RecordedPath& path, AxisStretch& stretch) {
 }  // namespace
 
 std::string stability_name(Stability stability) {
-  switch (stability) {
-    case Stability::stable:
-      return "stable";
-    case Stability::marginal:
-      return "marginal";
-    case Stability::unstable:
-      return "unstable";
-    case Stability::undecided:
-      return "undecided";
-  }
-  return "unknown";
+  return std::array{"stable", "marginal", "unstable", "undecided"}.at(static_cast<std::size_t>(stability));
 }
 
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,

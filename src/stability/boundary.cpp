@@ -1,13 +1,14 @@
 #include "eigentrail/stability/boundary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
 
-#include "stability/boundary_archive.hpp"
+#include "continuation/archived_parts.hpp"
 #include "stability/corners.hpp"
 #include "stability/curve_start.hpp"
 #include "stability/extremum_walk.hpp"
@@ -18,32 +19,23 @@ namespace {
 /// Progress reported after the scan of the lines, and after the walks.
 constexpr double scanned = 0.4;
 constexpr double walked = 0.5;
-/// What a piece of work on an extremum, or on a seed, results in.
-struct Walk {
-  std::optional<BoundarySeed> seed;
-  RunCounts counts;
-};
-struct Curve {
-  FollowedCurve curve;
-  int rejected_steps = 0;
-  RunCounts counts;
-};
+/// What a piece of work on an extremum results in.
+using Walk = std::pair<std::optional<BoundarySeed>, RunCounts>;
 
 }  // namespace
 
+// How the pieces of a search are written to an archive and read from it (core/archive.hpp).
+
+Members<6> archived(const BoundarySeed*);
+Members<4> archived(const LineExtremum*);
+Members<2> archived(const Finding*);
+Members<6> archived(const LineScan*);
+Members<17> archived(const CurvePoint*);
+Members<4> archived(const ChordStep*);
+Members<2> archived(const BoundaryFunction*);
+Members<2> archived(const ArmEnd*);
+Members<7> archived(const FollowedCurve*);
 Members<4> archived(const CurveStart*);
-
-template <SameAs<Walk> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [seed, counts] = self;
-  visit(seed, counts);
-}
-
-template <SameAs<Curve> Self, class Visit>
-static void fields(Self& self, Visit& visit) {
-  auto& [curve, rejected_steps, counts] = self;
-  visit(curve, rejected_steps, counts);
-}
 
 namespace {
 
@@ -65,9 +57,10 @@ class BoundarySearch {
   void follow_curves();
   bool is_known(std::size_t seed, const FollowedCurve& curve) const;
   bool is_known(std::size_t seed) const;
-  std::vector<std::size_t> next_seeds(std::size_t first, const std::map<std::size_t, Curve>& ready) const;
-  void follow_at_once(const std::vector<std::size_t>& seeds, std::map<std::size_t, Curve>& ready);
-  void accept(std::size_t seed, Curve followed);
+  std::vector<std::size_t> next_seeds(std::size_t first,
+                                      const std::map<std::size_t, FollowedCurve>& ready) const;
+  void follow_at_once(const std::vector<std::size_t>& seeds, std::map<std::size_t, FollowedCurve>& ready);
+  void accept(std::size_t seed, FollowedCurve curve);
   void finish();
   void note(const Finding& finding) {
     std::vector<std::string>& places = findings_[finding.what];
@@ -148,7 +141,7 @@ bool BoundarySearch::take(const std::vector<std::string>& scans) {
 void BoundarySearch::walk() {
   const auto walk_from = [this](std::size_t extremum) {
     Walk walk;
-    walk.seed = walk_to_boundary(window_, options_, extrema_[extremum], 0.5 * spacing(), walk.counts);
+    walk.first = walk_to_boundary(window_, options_, extrema_[extremum], 0.5 * spacing(), walk.second);
     return packed(walk);
   };
   const std::vector<std::string> found =
@@ -157,8 +150,8 @@ void BoundarySearch::walk() {
   for (const std::string& bytes : found) {
     Walk walk;
     unpack(bytes, walk);
-    result_.counts += walk.counts;
-    if (walk.seed) seeds_.push_back(std::move(*walk.seed));
+    result_.counts += walk.second;
+    if (walk.first) seeds_.push_back(std::move(*walk.first));
   }
   report(walked);
 }
@@ -195,22 +188,22 @@ bool BoundarySearch::is_known(std::size_t seed) const {
 /// Seeds to follow at the same time: the first one, and others that are likely to lie on other curves, one
 /// of each mode.
 std::vector<std::size_t> BoundarySearch::next_seeds(std::size_t first,
-                                                    const std::map<std::size_t, Curve>& ready) const {
+                                                    const std::map<std::size_t, FollowedCurve>& ready) const {
   std::vector<std::size_t> chosen;
   for (std::size_t i = first; i < seeds_.size() && chosen.size() < workers_.size(); ++i) {
     if (!starts_[i] || ready.contains(i)) continue;
     const bool same_mode = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
       return seeds_[other].kind == seeds_[i].kind && starts_[other]->number == starts_[i]->number;
     });
-    const bool likely_known = std::any_of(ready.begin(), ready.end(),
-                                          [&](const auto& one) { return is_known(i, one.second.curve); });
+    const bool likely_known =
+        std::any_of(ready.begin(), ready.end(), [&](const auto& one) { return is_known(i, one.second); });
     if (i == first || (!same_mode && !likely_known && !is_known(i))) chosen.push_back(i);
   }
   return chosen;
 }
 
 void BoundarySearch::follow_at_once(const std::vector<std::size_t>& seeds,
-                                    std::map<std::size_t, Curve>& ready) {
+                                    std::map<std::size_t, FollowedCurve>& ready) {
   std::mutex mutex;
   const double share =
       walked + (1.0 - walked) * static_cast<double>(seeds.front()) / static_cast<double>(seeds_.size());
@@ -221,27 +214,25 @@ void BoundarySearch::follow_at_once(const std::vector<std::size_t>& seeds,
   };
   const FollowOptions options{options_.trace.tolerance, options_.trace.max_nodes};
   const auto follow_from = [&](std::size_t seed) {
-    Curve result;
-    result.curve = follow_curve(window_, function_of(seeds_[seed], options_), options, *starts_[seed],
-                                on_point, result.rejected_steps, result.counts);
-    return packed(result);
+    return packed(
+        follow_curve(window_, function_of(seeds_[seed], options_), options, *starts_[seed], on_point));
   };
   const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});
   for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);
 }
 
-void BoundarySearch::accept(std::size_t seed, Curve followed) {
+void BoundarySearch::accept(std::size_t seed, FollowedCurve curve) {
   result_.islands += seeds_[seed].walked ? 1 : 0;
-  result_.rejected_steps += followed.rejected_steps;
-  result_.counts += followed.counts;
+  result_.rejected_steps += curve.rejected_steps;
+  result_.counts += curve.counts;
   // Without a step it touches the window in a single point.
-  if (!followed.curve.steps.empty()) curves_.push_back(std::move(followed.curve));
+  if (!curve.steps.empty()) curves_.push_back(std::move(curve));
 }
 
 /// Follows the curve of each seed, in order, that lies on no curve found before. Which curves are found does
 /// not depend on those that other workers have followed in the meantime.
 void BoundarySearch::follow_curves() {
-  std::map<std::size_t, Curve> ready;
+  std::map<std::size_t, FollowedCurve> ready;
   for (std::size_t seed = 0; seed < seeds_.size(); ++seed) {
     if (!starts_[seed] || is_known(seed)) continue;
     if (!ready.contains(seed)) follow_at_once(next_seeds(seed, ready), ready);
@@ -276,12 +267,11 @@ void BoundarySearch::finish() {
                               point.s, point.others, point.shape, point.path.x.col(0), point.flags});
     }
     for (const ChordStep& step : followed.steps) curve.steps.push_back(stored_step(window_, step));
-    curve.begin = followed.begin;
-    curve.end = followed.end;
-    curve.begin_reason = followed.begin_reason;
-    curve.end_reason = followed.end_reason;
-    if (curve.begin == CurveEnd::lost) fail("a curve was lost: " + curve.begin_reason);
-    if (curve.end == CurveEnd::lost) fail("a curve was lost: " + curve.end_reason);
+    std::tie(curve.begin, curve.begin_reason) = std::tie(followed.begin.how, followed.begin.reason);
+    std::tie(curve.end, curve.end_reason) = std::tie(followed.end.how, followed.end.reason);
+    for (const ArmEnd& end : {followed.begin, followed.end}) {
+      if (end.how == CurveEnd::lost) fail("a curve was lost: " + end.reason);
+    }
     result_.curves.push_back(std::move(curve));
   }
 }
@@ -321,47 +311,22 @@ BoundaryResult follow_boundaries(const Model& model, const BoundaryOptions& opti
 
 BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options,
                                const BoundaryProgress& progress) {
-  Threads threads(0);
-  return find_boundaries(model, options, threads, progress);
-}
-
-BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options, Workers& workers,
-                               const BoundaryProgress& progress) {
   const auto begin = std::chrono::steady_clock::now();
+  Threads threads(0);
   const std::vector<std::size_t> lines = numbers_to(boundary_lines(options));
-  const std::vector<std::string> scans = scan_boundaries(model, options, lines, workers, progress);
-  BoundaryResult result = follow_boundaries(model, options, scans, workers, progress);
+  const std::vector<std::string> scans = scan_boundaries(model, options, lines, threads, progress);
+  BoundaryResult result = follow_boundaries(model, options, scans, threads, progress);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 
 std::string boundary_name(BoundaryKind kind) {
-  switch (kind) {
-    case BoundaryKind::flutter:
-    case BoundaryKind::coalescence:
-      return "flutter";
-    case BoundaryKind::divergence:
-      return "divergence";
-    default:
-      return "damping_ratio";
-  }
+  return std::array{"flutter", "divergence", "damping_ratio", "flutter"}.at(static_cast<std::size_t>(kind));
 }
 
 std::string curve_end_name(CurveEnd end) {
-  switch (end) {
-    case CurveEnd::edge:
-      return "edge";
-    case CurveEnd::closed:
-      return "closed";
-    case CurveEnd::takens_bogdanov:
-      return "takens_bogdanov";
-    case CurveEnd::equilibrium_ends:
-      return "equilibrium_ends";
-    case CurveEnd::exceptional_point:
-      return "exceptional_point";
-    default:
-      return "lost";
-  }
+  return std::array{"edge", "closed", "takens_bogdanov", "equilibrium_ends", "exceptional_point", "lost"}.at(
+      static_cast<std::size_t>(end));
 }
 
 std::string corner_name(CornerKind kind) {

@@ -18,10 +18,6 @@ Vector square(const Vector& a) {
   return multiply_series(series, series).real();
 }
 
-Matrix reduced(const TangentBasis& basis, const Matrix& physical) {
-  return basis.is_identity ? physical : Matrix(basis.T[0].transpose() * physical);
-}
-
 /// The linear pencil K + g B with B = `border`, of rank one. Its only finite eigenvalue g vanishes where K is
 /// singular, and is simple there.
 ReducedPencil bordered(const ReducedPencil& pencil, const Matrix& border) {
@@ -61,10 +57,6 @@ double BoundaryFunction::distance_to_end(double tau, double delta) const {
   return kind == BoundaryKind::flutter ? -delta : -tau * damping_ratio;
 }
 
-bool BoundaryFunction::passed_end(double tau, double delta) const {
-  return distance_to_end(tau, delta) <= 0.0;
-}
-
 Situation compute_situation(const Window& window, const BoundaryFunction& function, const PlaceGuess& guess,
                             RunCounts& counts) {
   const PathProblem problem = window.at(guess.place);
@@ -83,13 +75,13 @@ Situation compute_situation(const Window& window, const BoundaryFunction& functi
   const TangentBasis& basis = result.point.basis;
   InvariantPair start;
   start.is_real = function.kind != BoundaryKind::coalescence;
-  start.Z = reduced(basis, guess.block.Z.real()).cast<Complex>();
-  if (!start.is_real) start.Z += Complex(0.0, 1.0) * reduced(basis, guess.block.Z.imag()).cast<Complex>();
+  start.Z = basis.coordinates(guess.block.Z, 0);
+  if (start.is_real) start.Z.imag().setZero();
   start.Lambda = guess.block.Lambda;
   result.pencil = result.point.pencil;
   result.bordered = function.kind == BoundaryKind::divergence;
   if (result.bordered) {
-    const Vector b = reduced(basis, guess.block.left);
+    const Vector b = basis.coordinates(guess.block.left.cast<Complex>(), 0).real();
     const Vector c = start.Z.real();
     result.pencil = bordered(result.point.pencil, -b * c.transpose() / (b.norm() * c.norm()));
   }
@@ -114,21 +106,15 @@ Vector left_vector(const Situation& situation) {
   const Vector image = situation.pencil.C[0] * situation.pair.Z.real();
   B.bottomLeftCorner(1, n) = image.transpose();
   const Vector y = B.partialPivLu().solve(Vector::Unit(n + 1, n)).head(n).normalized();
-  const TangentBasis& basis = situation.point.basis;
-  return basis.is_identity ? y : Vector(basis.T[0] * y);
+  return situation.point.basis.shapes(y.cast<Complex>(), 0).real();
 }
 
 PlaceGuess as_guess(const Situation& situation, const Place& place) {
-  const TangentBasis& basis = situation.point.basis;
-  const ComplexMatrix& Z = situation.pair.Z;
-  PlaceGuess guess;
-  guess.place = place;
-  guess.equilibrium = {situation.point.equilibrium.x, situation.point.equilibrium.lambda, true};
-  guess.block.Z = basis.is_identity ? Z : ComplexMatrix(basis.T[0].cast<Complex>() * Z);
-  guess.block.Lambda = situation.pair.Lambda;
-  guess.block.left = left_vector(situation);
-  guess.basis = basis.T[0];
-  return guess;
+  const PathPoint& point = situation.point;
+  return {place,
+          {point.equilibrium.x, point.equilibrium.lambda, true},
+          {point.basis.shapes(situation.pair.Z, 0), situation.pair.Lambda, left_vector(situation)},
+          point.basis.T[0]};
 }
 
 std::optional<SituationSeries> differentiate_situation(const Window& window, const Situation& situation,
@@ -181,16 +167,11 @@ Place gradient(const BoundaryFunction& function, const ComplexMatrix& functions,
 }
 
 BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, std::span<const StartingMode> modes) {
-  const auto physical = [&point](const ComplexMatrix& Z) {
-    return point.basis.is_identity ? Z : ComplexMatrix(point.basis.T[0].cast<Complex>() * Z);
-  };
-  BoundaryBlock block;
+  const auto physical = [&point](const ComplexMatrix& Z) { return point.basis.shapes(Z, 0); };
   if (kind == BoundaryKind::divergence) {
     const SingularVectors<Matrix> svd = singular_vectors(point.pencil.K[0]);
-    block.Z = physical(svd.V.rightCols(1).cast<Complex>());
-    block.left = physical(svd.U.rightCols(1).cast<Complex>()).real();
-    block.Lambda = ComplexMatrix::Zero(1, 1);
-    return block;
+    return {physical(svd.V.rightCols(1).cast<Complex>()), ComplexMatrix::Zero(1, 1),
+            physical(svd.U.rightCols(1).cast<Complex>()).real()};
   }
   std::array<InvariantPair, 2> upper;
   for (std::size_t i = 0; i < std::min<std::size_t>(modes.size(), 2); ++i) {
@@ -199,9 +180,7 @@ BoundaryBlock starting_block(BoundaryKind kind, const PathPoint& point, std::spa
   }
   const InvariantPair pair = kind == BoundaryKind::coalescence ? join_pairs({&upper[0], &upper[1]}, false)
                                                                : with_conjugate(upper[0]);
-  block.Z = physical(pair.Z);
-  block.Lambda = pair.Lambda;
-  return block;
+  return {physical(pair.Z), pair.Lambda, {}};
 }
 
 }  // namespace eigentrail

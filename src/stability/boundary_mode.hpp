@@ -23,12 +23,13 @@ struct BoundaryFunction {
   /// Power series of g from those of the functions.
   Vector series(const ComplexMatrix& functions) const;
 
-  /// Whether the curve ends at or before a point with these values of tau and delta: flutter ends where the
-  /// pair becomes real (delta = 0), a damping ratio where tau changes its sign.
-  bool passed_end(double tau, double delta) const;
+  /// Positive if a mode is unstable or less damped than asked: Re s + damping_ratio |s|, without a damping
+  /// ratio Re s.
+  double instability(Complex s) const { return s.real() + damping_ratio * std::abs(s); }
 
-  /// A measure of the distance to that end, negative beyond it: -delta or -tau * damping_ratio; infinite for
-  /// divergence.
+  /// A measure of the distance to the end of the curve from a point with these values of tau and delta,
+  /// negative beyond it: flutter ends where the pair becomes real (-delta = 0), a damping ratio where tau
+  /// changes its sign (-tau * damping_ratio = 0). Infinite for divergence.
   double distance_to_end(double tau, double delta) const;
 };
 

@@ -60,17 +60,12 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   options.lines = request.lines.value_or(options.lines);
   check_second_parameter(setup.scene, options.second, options.trace.parameter);
   check_numbers(options);
-  // Both parameters of the window must enter the model itself.
-  const int first = setup.scene.parameters.index(options.trace.parameter).value();
-  const int second = setup.scene.parameters.index(options.second).value();
-  used.erase(first);
-  used.erase(second);
-  const std::vector<Vector> points =
-      points_of_window(setup.scene.parameters, {first, options.trace.from, options.trace.to},
-                       {second, options.second_from, options.second_to}, checked_points);
-  setup.model = build_model(setup.scene, {points, used, options.trace.without});
+  setup.model =
+      model_over_window(setup.scene, options.trace, {options.second, options.second_from, options.second_to},
+                        used, checked_points);
   for (const int unused : setup.model->description().unused_parameters) {
-    if (unused == first || unused == second) throw unused_error(setup.scene, unused);
+    const std::string& name = setup.scene.parameters[static_cast<std::size_t>(unused)].name;
+    if (name == options.trace.parameter || name == options.second) throw unused_error(setup.scene, unused);
   }
   project_if_large(setup.model, options.trace,
                    lines_over(options.trace, options.second, options.second_from, options.second_to));

@@ -130,7 +130,7 @@ void CornerFinder::add_ends(double tolerance) {
 bool CornerFinder::are_neighbours(At a, At b) const {
   if (a.curve != b.curve) return false;
   const std::size_t count = curves_[a.curve].steps.size();
-  const bool closed = curves_[a.curve].end == CurveEnd::closed;
+  const bool closed = curves_[a.curve].end.how == CurveEnd::closed;
   return b.step <= a.step + 1 || (closed && a.step == 0 && b.step + 1 == count);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bisection.hpp"
 #include "eigentrail/continuation/step_control.hpp"
 
 namespace eigentrail {
@@ -46,15 +47,11 @@ bool step_passes(const ChordStep& step, const Place& place, Complex s, double to
 template <class Value>
 double first_negative(Value&& value) {
   for (int k = 1; k <= curve_samples_per_step; ++k) {
-    double before = (k - 1.0) / curve_samples_per_step;
-    double behind = static_cast<double>(k) / curve_samples_per_step;
+    const double before = (k - 1.0) / curve_samples_per_step;
+    const double behind = static_cast<double>(k) / curve_samples_per_step;
     if (value(behind) >= 0.0) continue;
     constexpr int halvings = 45;
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = 0.5 * (before + behind);
-      (value(middle) < 0.0 ? behind : before) = middle;
-    }
-    return before;
+    return bisected(before, behind, halvings, [&](double t) { return !(value(t) < 0.0); }).last;
   }
   return 2.0;
 }
@@ -91,8 +88,7 @@ class Arm {
   /// Each step points in the direction of the curve. If `sign_` is negative, that is from the end of the arm
   /// towards the seed.
   std::vector<ChordStep> steps;
-  CurveEnd end = CurveEnd::lost;
-  std::string reason;
+  ArmEnd end;
   int rejected = 0;
 
  private:
@@ -121,8 +117,7 @@ class Arm {
               PointStatus status = PointStatus::mode_lost);
 
   bool stop(CurveEnd how, std::string why = {}) {
-    end = how;
-    reason = std::move(why);
+    end = {how, std::move(why)};
     return false;
   }
   const CurvePoint& last() const { return points.back(); }
@@ -269,10 +264,7 @@ Arm::Landing Arm::close() {
     points.pop_back();
     steps.pop_back();
   }
-  const std::optional<ChordStep> step = step_to(points.front());
-  if (!step || !(error_of(*step) <= 1.0)) return Landing::failed;
-  points.push_back(points.front());
-  steps.push_back(*step);
+  if (!append(points.front())) return Landing::failed;
   stop(CurveEnd::closed);
   return Landing::landed;
 }
@@ -285,24 +277,21 @@ bool FollowedCurve::passes(const Place& place, Complex s, double tolerance, doub
 }
 
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
-                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point,
-                           int& rejected, RunCounts& counts) {
+                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point) {
   seed.flags |= seed_flag;
-  Arm ahead(window, function, options, seed, 1.0, on_point, counts);
-  ahead.follow();
-  rejected += ahead.rejected;
   FollowedCurve curve;
   curve.function = function;
+  Arm ahead(window, function, options, seed, 1.0, on_point, curve.counts);
+  ahead.follow();
+  curve.rejected_steps = ahead.rejected;
   curve.end = curve.begin = ahead.end;
-  curve.end_reason = ahead.reason;
   curve.points = std::move(ahead.points);
   curve.steps = std::move(ahead.steps);
-  if (curve.end == CurveEnd::closed) return curve;
-  Arm back(window, function, options, seed, -1.0, on_point, counts);
+  if (curve.end.how == CurveEnd::closed) return curve;
+  Arm back(window, function, options, seed, -1.0, on_point, curve.counts);
   back.follow();
-  rejected += back.rejected;
+  curve.rejected_steps += back.rejected;
   curve.begin = back.end;
-  curve.begin_reason = back.reason;
   std::reverse(back.points.begin(), back.points.end());
   std::reverse(back.steps.begin(), back.steps.end());
   curve.points.front().flags |= back.points.back().flags;  // both points are the seed

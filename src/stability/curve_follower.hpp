@@ -12,12 +12,19 @@ struct FollowOptions {
   int max_points = 100000;  ///< largest number of points of a curve in each direction from the seed
 };
 
+/// How a curve ends, and why in words; empty if the end needs none.
+struct ArmEnd {
+  CurveEnd how = CurveEnd::lost;
+  std::string reason;
+};
+
 struct FollowedCurve {
   BoundaryFunction function;
   std::vector<CurvePoint> points;
   std::vector<ChordStep> steps;  ///< between neighbouring points: one less than points
-  CurveEnd begin = CurveEnd::lost, end = CurveEnd::lost;
-  std::string begin_reason, end_reason;
+  ArmEnd begin, end;
+  int rejected_steps = 0;
+  RunCounts counts;
 
   /// Whether the dense output passes through a scaled place with the eigenvalue `s` there, within a small
   /// multiple of the tolerance.
@@ -27,10 +34,8 @@ struct FollowedCurve {
 /// Called after every point.
 using OnPoint = std::function<void()>;
 
-/// Follows the curve through `seed` in both directions until it ends or closes. Adds the number of rejected
-/// steps to `rejected`.
+/// Follows the curve through `seed` in both directions until it ends or closes.
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
-                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point,
-                           int& rejected, RunCounts& counts);
+                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point);
 
 }  // namespace eigentrail

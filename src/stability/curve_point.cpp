@@ -20,13 +20,6 @@ constexpr double longest = 0.5;      ///< Newton's method fails if it moves fart
 /// An instability below this multiple of max(|s|, reference) counts as zero.
 constexpr double vanishing = 1e-9;
 
-/// Measure of instability, positive for unstable modes: Re s, or Re s + ratio |s| if a damping ratio is asked
-/// for, which is positive for modes that are less damped.
-double instability(const BoundaryFunction& function, Complex s) {
-  return s.real() +
-         (function.kind == BoundaryKind::damping_ratio ? function.damping_ratio * std::abs(s) : 0.0);
-}
-
 /// Sets the eigenvalue of the block with Im s >= 0 and its normalized shape.
 void read_mode(const Situation& situation, CurvePoint& point) {
   const InvariantPair& pair = situation.pair;
@@ -39,9 +32,7 @@ void read_mode(const Situation& situation, CurvePoint& point) {
     point.s = Complex(roots[0].real(), std::abs(roots[0].imag()));
     z = pair.Z * solver.eigenvectors().col(upper);
   }
-  z = normalize_shape(z, situation.pencil.M[0], {});
-  const TangentBasis& basis = situation.point.basis;
-  point.shape = basis.is_identity ? z : ComplexVector(basis.T[0].cast<Complex>() * z);
+  point.shape = situation.point.basis.shapes(normalize_shape(z, situation.pencil.M[0], {}), 0);
 }
 
 /// Sets the number of the mode, its distance from the other eigenvalues and the number of other unstable
@@ -60,7 +51,7 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
   point.gap = nearest.size() > own ? distance(nearest[own]) : INFINITY;
   for (std::size_t i = own; i < nearest.size(); ++i) {
     const Complex s = spectrum.modes[nearest[i]].s;
-    if (instability(function, s) > vanishing * std::max(std::abs(s), window.reference())) ++point.others;
+    if (function.instability(s) > vanishing * std::max(std::abs(s), window.reference())) ++point.others;
   }
 }
 
@@ -125,12 +116,10 @@ CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& fu
 }
 
 PlaceGuess predict(const CurvePoint& point, double h) {
-  PlaceGuess guess;
-  guess.place = evaluate_series(point.places, h);
-  guess.equilibrium = {evaluate_series(point.path.x, h), evaluate_series(point.path.lambda, h), true};
-  guess.block = {evaluate_series(point.mode.Z, h), evaluate_series(point.mode.Lambda, h), point.left};
-  guess.basis = point.basis;
-  return guess;
+  return {evaluate_series(point.places, h),
+          {evaluate_series(point.path.x, h), evaluate_series(point.path.lambda, h), true},
+          {evaluate_series(point.mode.Z, h), evaluate_series(point.mode.Lambda, h), point.left},
+          point.basis};
 }
 
 namespace {

@@ -27,9 +27,6 @@ struct CurvePoint {
   double gap = 0.0;                    ///< distance of s from the nearest other eigenvalue with Im s >= 0
   int number = 0;                      ///< number of the mode by ascending |s|, from 1
   int flags = 0;                       ///< sum of PointFlag
-
-  double tau() const { return functions(0, 0).real(); }
-  double delta() const { return functions.rows() > 1 ? functions(1, 0).real() : 0.0; }
 };
 
 /// The point with the series of the curve through a situation on it. The tangent has a nonnegative product

@@ -33,11 +33,10 @@ Situation correct_seed(const Window& window, const BoundarySeed& seed, const Bou
             [&](const auto& a, const auto& b) { return std::abs(a.s - seed.s) < std::abs(b.s - seed.s); });
   if (seed.kind != BoundaryKind::divergence && spectrum.modes[0].s.imag() == 0.0) return failed;
   if (seed.kind == BoundaryKind::coalescence && spectrum.modes.size() < 2) return failed;
-  PlaceGuess guess;
-  guess.place = seed.place;
-  guess.equilibrium = {point.equilibrium.x, point.equilibrium.lambda, true};
-  guess.block = starting_block(seed.kind, point, spectrum.modes);
-  guess.basis = point.basis.T[0];
+  const PlaceGuess guess{seed.place,
+                         {point.equilibrium.x, point.equilibrium.lambda, true},
+                         starting_block(seed.kind, point, spectrum.modes),
+                         point.basis.T[0]};
   const Place gradient_itself = Place::Zero();  // correct_along takes zero as the direction of grad g
   for (const Place& direction :
        {seed.direction, gradient_itself, Place(Place::UnitX()), Place(Place::UnitY())}) {
@@ -69,7 +68,7 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
   const double tau = there.functions(0, 0).real();
   const double delta = there.functions.rows() > 1 ? there.functions(1, 0).real() : 0.0;
   // tau = 0 with two real eigenvalues of opposite sign (flutter), or tau of the wrong sign (damping ratio).
-  if (function.passed_end(tau, delta)) return start;
+  if (function.distance_to_end(tau, delta) <= 0.0) return start;
   const auto gradients = function_gradients(window, there, function, start.counts);
   const double size = seed.kind == BoundaryKind::divergence
                           ? there.pencil.K[0].norm()

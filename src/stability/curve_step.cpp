@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/bisection.hpp"
 #include "core/series_composition.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -114,15 +115,11 @@ std::vector<double> turning_points(const HermiteInterpolant& dense, Eigen::Index
   const auto slope = [&](double t) { return dense.slope(t)[row].real(); };
   std::vector<double> found;
   for (int i = 0; i < samples; ++i) {
-    double from = static_cast<double>(i) / samples;
-    double to = (i + 1.0) / samples;
+    const double from = static_cast<double>(i) / samples;
+    const double to = (i + 1.0) / samples;
     const double sign = slope(from);
     if (sign * slope(to) >= 0.0) continue;
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = 0.5 * (from + to);
-      (slope(middle) * sign > 0.0 ? from : to) = middle;
-    }
-    found.push_back(from);
+    found.push_back(bisected(from, to, halvings, [&](double t) { return slope(t) * sign > 0.0; }).last);
   }
   return found;
 }

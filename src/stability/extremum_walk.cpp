@@ -121,10 +121,7 @@ std::optional<BoundarySeed> seed_at(const Window& window, const BoundaryOptions&
                                     const Probe& there) {
   const Complex s = there.s.value;
   if (!passes_zero(options, s, window.reference())) return std::nullopt;
-  const BoundaryKind kind = options.damping_ratio ? BoundaryKind::damping_ratio
-                            : s.imag() == 0.0     ? BoundaryKind::divergence
-                                                  : BoundaryKind::flutter;
-  return BoundarySeed{there.place, Place::Zero(), kind, s, there.equilibrium, true};
+  return BoundarySeed{there.place, Place::Zero(), kind_of(options, s), s, there.equilibrium, true};
 }
 
 /// A seed between two probes with instabilities of opposite sign. The interval is divided by the secant or in

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "eigentrail/continuation/dense_output.hpp"
+#include "core/bisection.hpp"
+#include "eigentrail/continuation/recorded_path.hpp"
 
 namespace eigentrail {
 namespace {
@@ -33,38 +34,6 @@ struct Sample {
   ComplexVector s;  ///< of all modes; NaN where a mode does not exist
 };
 
-/// The dense output of one step of a trace as a function of t in [0, 1].
-class SampledStep {
- public:
-  SampledStep(const Window& window, const ScanLine& line, const Path& left, const PathStep& step,
-              ComplexVector at_left, ComplexVector at_right)
-      : window_(window),
-        line_(line),
-        left_(left),
-        step_(step),
-        at_left_(std::move(at_left)),
-        at_right_(std::move(at_right)) {}
-
-  Sample operator()(double t) const {
-    const HermiteInterpolant parameter(step_.length, step_.parameter.row(0).cast<Complex>(),
-                                       step_.parameter.row(1).cast<Complex>());
-    const double h = t * step_.length;
-    Sample sample;
-    sample.place = line_.at(window_.scaled(line_.along, parameter(t)[0].real()));
-    sample.equilibrium = {evaluate_series(left_.x, h), evaluate_series(left_.lambda, h), true};
-    sample.s = eigenvalues(t);
-    return sample;
-  }
-  ComplexVector eigenvalues(double t) const { return step_eigenvalues(step_, at_left_, at_right_, t); }
-
- private:
-  const Window& window_;
-  const ScanLine& line_;
-  const Path& left_;
-  const PathStep& step_;
-  ComplexVector at_left_, at_right_;
-};
-
 class Scanner {
  public:
   Scanner(const Window& window, const BoundaryOptions& options, const ScanLine& line)
@@ -74,9 +43,9 @@ class Scanner {
 
  private:
   TraceResult trace_line(double from, double to);
-  bool take(const TracePoint& point);
-  void look_at(const SampledStep& step, double from, const Sample& sample, double t);
-  void add_seed(const SampledStep& step, Eigen::Index mode, double from, double to);
+  Sample sample(const PathPosition& at) const;
+  void look_at(const PathPosition& at);
+  void add_seed(const PathPosition& at, Eigen::Index mode);
   void add_extremum(Eigen::Index mode, double before, double here, double behind);
   void report(const TraceResult& result);
   bool has_sign(Complex s) const {
@@ -87,33 +56,12 @@ class Scanner {
   const BoundaryOptions& options_;
   const ScanLine& line_;
   LineScan scan_;
-  std::vector<EquilibriumGuess> equilibria_;  ///< at the points of the trace
-  std::optional<Path> left_;
-  ComplexVector at_left_;
+  RecordedPath path_;
+  std::vector<Path> nodes_;  ///< series of the equilibrium at the points of the trace
   std::optional<Sample> before_, last_;
   /// Per mode: the last sign of its instability; 0: none yet, or the mode does not exist.
   std::vector<double> signs_;
 };
-
-ComplexVector by_mode(const std::vector<ModeState>& states, Eigen::Index count) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  ComplexVector s = ComplexVector::Constant(count, Complex(nan, nan));
-  for (const ModeState& state : states) s[state.mode] = state.s;
-  return s;
-}
-
-Eigen::Index mode_count(const std::vector<ModeState>& states) {
-  int count = 0;
-  for (const ModeState& state : states) count = std::max(count, state.mode + 1);
-  return count;
-}
-
-void resize(ComplexVector& s, Eigen::Index count) {
-  const Eigen::Index old = s.size();
-  if (count <= old) return;
-  s.conservativeResize(count);
-  s.tail(count - old).setConstant(Complex(std::numeric_limits<double>::quiet_NaN(), 0.0));
-}
 
 LineScan Scanner::run() {
   const TraceResult result = trace_line(0.0, 1.0);
@@ -147,80 +95,77 @@ TraceResult Scanner::trace_line(double from, double to) {
   options.events = {.veerings = false, .other_paths = false};  // and extrema are found by the scan itself
   options.first_step.reset();
   options.max_step = std::abs(options.to - options.from) / steps_per_line;
-  equilibria_.clear();
-  left_.reset();
-  before_.reset();
-  last_.reset();
-  signs_.clear();
+  nodes_.clear();
+  PathRecorder recorder;
   TraceObserver observer;
   observer.started = [this](const TraceStart& start) {
     scan_.started = true;
     scan_.s_ref = start.s_ref;
   };
-  observer.point = [this](const TracePoint& point) { return take(point); };
+  observer.point = [&](const TracePoint& point) {
+    recorder.append(point);
+    nodes_.push_back(point.node.path);
+    return true;
+  };
   TraceResult result = trace(window_.model(), options, observer);
   scan_.counts.modes.factorizations += result.counts.modes.factorizations;
   scan_.counts.spectra += result.counts.spectra;
+  path_ = recorder.path();
+  before_.reset();
+  last_.reset();
+  signs_.assign(static_cast<std::size_t>(path_.eigenvalues.cols()), 0.0);
+  for (std::size_t step = 0; step < path_.steps.size(); ++step) {
+    for (int k = step == 0 ? 0 : 1; k <= samples_per_step; ++k)
+      look_at({step, static_cast<double>(k) / samples_per_step});
+  }
   return result;
 }
 
-bool Scanner::take(const TracePoint& point) {
-  const Eigen::Index count = std::max(mode_count(point.modes), at_left_.size());
-  ComplexVector at_right = by_mode(point.modes, count);
-  if (left_ && point.step != nullptr) {
-    resize(at_left_, count);
-    signs_.resize(static_cast<std::size_t>(count), 0.0);
-    const SampledStep step(window_, line_, *left_, *point.step, at_left_, at_right);
-    for (int k = 0; k <= samples_per_step; ++k) {
-      if (k == 0 && last_) continue;
-      const double t = static_cast<double>(k) / samples_per_step;
-      look_at(step, std::max(t - 1.0 / samples_per_step, 0.0), step(t), t);
-    }
-  }
-  equilibria_.push_back({point.node.path.x.col(0), point.node.path.lambda.col(0), true});
-  left_ = point.node.path;
-  at_left_ = std::move(at_right);
-  return true;
+Sample Scanner::sample(const PathPosition& at) const {
+  const Path& left = nodes_[at.step];
+  const double h = at.t * path_.steps[at.step].length;
+  return {line_.at(window_.scaled(line_.along, path_.parameter_at(at))),
+          {evaluate_series(left.x, h), evaluate_series(left.lambda, h), true},
+          path_.eigenvalues_at(at)};
 }
 
-void Scanner::look_at(const SampledStep& step, double from, const Sample& sample, double t) {
-  for (Eigen::Index mode = 0; mode < sample.s.size(); ++mode) {
-    const Complex s = sample.s[mode];
+void Scanner::look_at(const PathPosition& at) {
+  Sample here = sample(at);
+  for (Eigen::Index mode = 0; mode < here.s.size(); ++mode) {
+    const Complex s = here.s[mode];
     double& sign = signs_[static_cast<std::size_t>(mode)];
     if (!std::isfinite(s.real())) {
       sign = 0.0;
       continue;
     }
     if (has_sign(s)) {
-      const double here = instability(options_, s) > 0.0 ? 1.0 : -1.0;
-      if (sign * here < 0.0) add_seed(step, mode, from, t);
-      sign = here;
+      const double sign_here = instability(options_, s) > 0.0 ? 1.0 : -1.0;
+      if (sign * sign_here < 0.0) add_seed(at, mode);
+      sign = sign_here;
     }
-    if (!before_ || mode >= last_->s.size() || mode >= before_->s.size()) continue;
+    if (!before_) continue;
     add_extremum(mode, instability(options_, before_->s[mode]), instability(options_, last_->s[mode]),
                  instability(options_, s));
   }
   before_ = std::move(last_);
-  last_ = sample;
+  last_ = std::move(here);
 }
 
-void Scanner::add_seed(const SampledStep& step, Eigen::Index mode, double from, double to) {
-  const double behind = instability(options_, step.eigenvalues(to)[mode]);
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (from + to);
-    const Complex s = step.eigenvalues(middle)[mode];
-    (instability(options_, s) * behind > 0.0 ? to : from) = middle;
-  }
-  const Sample there = step(to);
+/// Adds the place between the sample at `at` and the one before it, at which the instability changes its
+/// sign.
+void Scanner::add_seed(const PathPosition& at, Eigen::Index mode) {
+  const auto instability_at = [&](double t) {
+    return instability(options_, path_.eigenvalues_at({at.step, t})[mode]);
+  };
+  const double behind = instability_at(at.t);
+  const Bisected place = bisected(at.t - 1.0 / samples_per_step, at.t, halvings,
+                                  [&](double t) { return !(instability_at(t) * behind > 0.0); });
+  const Sample there = sample({at.step, place.first_without});
   const Complex s = there.s[mode];
-  const bool pair = s.imag() != 0.0;
   if (!passes_zero(options_, s, scan_.s_ref)) return;
   // The damping ratio of a real eigenvalue is 1 or -1, never the one asked for.
-  if (!pair && options_.damping_ratio) return;
-  const BoundaryKind kind = !pair                    ? BoundaryKind::divergence
-                            : options_.damping_ratio ? BoundaryKind::damping_ratio
-                                                     : BoundaryKind::flutter;
-  scan_.seeds.push_back({there.place, Place::Unit(line_.along), kind, s, there.equilibrium});
+  if (s.imag() == 0.0 && options_.damping_ratio) return;
+  scan_.seeds.push_back({there.place, Place::Unit(line_.along), kind_of(options_, s), s, there.equilibrium});
 }
 
 void Scanner::add_extremum(Eigen::Index mode, double before, double here, double behind) {
@@ -248,15 +193,21 @@ void Scanner::report(const TraceResult& result) {
     if (options_.damping_ratio || event.kind != EventKind::collision || event.modes.size() != 2 ||
         event.s.imag() == 0.0 || !on_axis)
       continue;
-    const std::size_t point = std::min(static_cast<std::size_t>(event.node), equilibria_.size() - 1);
+    const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];
     const Place direction = Place::Unit(line_.along);
     const Place beside =
         place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
-    scan_.seeds.push_back({beside, direction, BoundaryKind::coalescence, event.s, equilibria_[point]});
+    scan_.seeds.push_back(
+        {beside, direction, BoundaryKind::coalescence, event.s, {node.x.col(0), node.lambda.col(0), true}});
   }
 }
 
 }  // namespace
+
+BoundaryKind kind_of(const BoundaryOptions& options, Complex s) {
+  if (options.damping_ratio) return BoundaryKind::damping_ratio;
+  return s.imag() == 0.0 ? BoundaryKind::divergence : BoundaryKind::flutter;
+}
 
 double instability(const BoundaryOptions& options, Complex s) {
   return s.real() + options.damping_ratio.value_or(0.0) * std::abs(s);

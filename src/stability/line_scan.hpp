@@ -52,6 +52,9 @@ struct LineScan {
 /// as well.
 LineScan scan_line(const Window& window, const BoundaryOptions& options, const ScanLine& line);
 
+/// The kind of a boundary on which a mode has the eigenvalue s.
+BoundaryKind kind_of(const BoundaryOptions& options, Complex s);
+
 /// Instability of a mode: Re s, or Re s + ratio |s| if a damping ratio is asked for. Zero on the boundary,
 /// positive if the mode is unstable or less damped than asked.
 double instability(const BoundaryOptions& options, Complex s);

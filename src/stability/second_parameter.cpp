@@ -50,19 +50,24 @@ std::vector<double> evenly(double from, double to, int n) {
   return values;
 }
 
-std::vector<Vector> points_of_window(const Parameters& parameters, const WindowSide& first,
-                                     const WindowSide& second, int per_side) {
+std::unique_ptr<Model> model_over_window(const Scene& scene, const TraceOptions& trace,
+                                         const SecondRange& second, std::set<int> used, int per_side) {
+  const int p_index = scene.parameters.index(trace.parameter).value();
+  const int q_index = scene.parameters.index(second.name).value();
   std::vector<Vector> points;
   for (const int n : {2, per_side}) {
     for (const double q : evenly(second.from, second.to, n)) {
-      for (const double p : evenly(first.from, first.to, n)) {
-        Vector& values = points.emplace_back(parameters.declared_values());
-        values[first.parameter] = p;
-        values[second.parameter] = q;
+      for (const double p : evenly(trace.from, trace.to, n)) {
+        Vector& values = points.emplace_back(scene.parameters.declared_values());
+        values[p_index] = p;
+        values[q_index] = q;
       }
     }
   }
-  return points;
+  // Both parameters of the window must enter the model itself.
+  used.erase(p_index);
+  used.erase(q_index);
+  return build_model(scene, {points, used, trace.without});
 }
 
 }  // namespace eigentrail

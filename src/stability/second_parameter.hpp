@@ -17,15 +17,16 @@ void require_first_range(const Scene& scene, const OptionTexts& overrides);
 /// n >= 2 equidistant values from `from` to `to`, both ends exact.
 std::vector<double> evenly(double from, double to, int n);
 
-/// A side of the window: number and range of a parameter, in its unit.
-struct WindowSide {
-  int parameter;
+/// The second parameter of a window and its range, in its unit.
+struct SecondRange {
+  std::string name;
   double from, to;
 };
 
-/// Values of all parameters at places all over the window, at which the model is checked: its four corners
-/// first, then `per_side` x `per_side` places.
-std::vector<Vector> points_of_window(const Parameters& parameters, const WindowSide& first,
-                                     const WindowSide& second, int per_side);
+/// The model of a scene, checked at places all over the window: its four corners first, then `per_side` x
+/// `per_side` places. Parameters on which it does not depend are reported in its description, except those in
+/// `used` that are not of the window.
+std::unique_ptr<Model> model_over_window(const Scene& scene, const TraceOptions& trace,
+                                         const SecondRange& second, std::set<int> used, int per_side);
 
 }  // namespace eigentrail

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "continuation/archived_parts.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "stability/second_parameter.hpp"
 
@@ -75,10 +75,8 @@ std::vector<std::string> notes_on(const StabilityMap& map, const std::string& se
     const auto first = std::find_if(map.lines.begin(), map.lines.end(), applies);
     const auto count = std::count_if(map.lines.begin(), map.lines.end(), applies);
     if (count == 0) return;
-    std::ostringstream place;
-    place << first->second;
     notes.push_back(std::to_string(count) + " of " + std::to_string(map.lines.size()) + " lines " + what +
-                    ", first at " + second + " = " + place.str() +
+                    ", first at " + second + " = " + short_text(first->second, 6) +
                     (with_reason ? ": " + first->message : ""));
   };
   note(
@@ -124,15 +122,8 @@ MapSetup prepare_map(Scene scene, const OptionTexts& overrides, const MapOptions
   std::set<int> used;
   MapSetup setup = checked_setup(std::move(scene), overrides, options, used);
   TraceSetup& trace = setup.trace;
-  const int second = trace.scene.parameters.index(options.second).value();
-  // build_model reports parameters on which the model does not depend, except those in `used`. Both
-  // parameters of the window must enter the model.
-  used.erase(trace.traced());
-  used.erase(second);
-  const std::vector<Vector> points =
-      points_of_window(trace.scene.parameters, {trace.traced(), trace.options.from, trace.options.to},
-                       {second, options.from, options.to}, checked_per_side);
-  trace.model = build_model(trace.scene, {points, used, trace.options.without});
+  trace.model = model_over_window(trace.scene, trace.options, {options.second, options.from, options.to},
+                                  used, checked_per_side);
   project_if_large(trace.model, trace.options,
                    lines_over(trace.options, options.second, options.from, options.to));
   return setup;

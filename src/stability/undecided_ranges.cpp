@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bisection.hpp"
 #include "eigentrail/stability/permanent_modes.hpp"
 
 namespace eigentrail {
@@ -57,13 +58,11 @@ class Sampler {
   }
 
   /// The place between two samples at which the verdict `undecided` begins or ends.
-  RangeSample edge(RangeSample inside, RangeSample outside) const {
+  RangeSample edge(const RangeSample& inside, const RangeSample& outside) const {
     constexpr int halvings = 45;
-    for (int i = 0; i < halvings; ++i) {
-      const RangeSample middle = at(0.5 * (inside.place + outside.place));
-      (middle.verdict == Stability::undecided ? inside : outside) = middle;
-    }
-    return inside;
+    return at(bisected(inside.place, outside.place, halvings, [this](double place) {
+                return at(place).verdict == Stability::undecided;
+              }).last);
   }
 
  private:
@@ -106,11 +105,6 @@ std::vector<Stretch> undecided_stretches(const Sampler& sampler, const std::vect
   return found;
 }
 
-/// Parameter values grow in the direction of the trace if multiplied by this.
-double direction_of(const RecordedPath& path) {
-  return path.p.back() >= path.p.front() ? 1.0 : -1.0;
-}
-
 }  // namespace
 
 std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, const RecordedPath& path,
@@ -119,8 +113,8 @@ std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, 
   if (path.steps.empty()) return ranges;
   const Sampler sampler(path, errors, accuracy);
   const std::vector<RangeSample> samples = all_samples(sampler, path, events);
-  const double direction = direction_of(path);
-  const auto before = [direction](double a, double b) { return direction * a < direction * b; };
+  const bool ascends = path.p.back() >= path.p.front();
+  const auto before = [ascends](double a, double b) { return ascends ? a < b : a > b; };
   const auto edge = [&](const RangeSample& at) {
     return RangeEnd{sampler.parameter(at.place), cause, at.margin, at.critical};
   };
@@ -141,45 +135,38 @@ std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, 
     open.push_back(range);
   }
 
+  // A part of a stable range with its margins.
+  const auto with_margins = [&](StableRange part) {
+    part.least_margin = std::min(part.from.margin, part.to.margin);
+    part.largest_margin = -INFINITY;
+    const auto include = [&part](double margin, double p) {
+      part.least_margin = std::min(part.least_margin, margin);
+      if (margin <= part.largest_margin) return;
+      part.largest_margin = margin;
+      part.largest_at = p;
+    };
+    include(part.from.margin, part.from.p);
+    for (const RangeSample& sample : samples) {
+      const double p = sampler.parameter(sample.place);
+      if (before(part.from.p, p) && before(p, part.to.p)) include(sample.margin, p);
+    }
+    include(part.to.margin, part.to.p);
+    return part;
+  };
   std::vector<StableRange> result = open;
   for (const StableRange& range : ranges) {
-    std::vector<StableRange> parts{range};
+    StableRange rest = range;
+    bool is_left = true;
     for (const StableRange& hole : open) {
-      std::vector<StableRange> rest;
-      for (const StableRange& part : parts) {
-        if (!before(hole.from.p, part.to.p) || !before(part.from.p, hole.to.p)) {
-          rest.push_back(part);
-          continue;
-        }
-        StableRange left = part, right = part;
-        left.to = hole.from;
-        right.from = hole.to;
-        left.to.cause = right.from.cause = cause;
-        if (before(part.from.p, hole.from.p)) rest.push_back(left);
-        if (before(hole.to.p, part.to.p)) rest.push_back(right);
-      }
-      parts = std::move(rest);
+      if (!is_left || !before(hole.from.p, rest.to.p) || !before(rest.from.p, hole.to.p)) continue;
+      StableRange part = rest;
+      part.to = hole.from;
+      rest.from = hole.to;
+      part.to.cause = rest.from.cause = cause;
+      if (before(part.from.p, part.to.p)) result.push_back(with_margins(part));
+      is_left = before(rest.from.p, rest.to.p);
     }
-    for (StableRange& part : parts) {
-      const bool whole = part.from.p == range.from.p && part.to.p == range.to.p;
-      if (!whole) {
-        part.least_margin = std::min(part.from.margin, part.to.margin);
-        part.largest_margin = -INFINITY;
-        const auto include = [&part](double margin, double p) {
-          part.least_margin = std::min(part.least_margin, margin);
-          if (margin <= part.largest_margin) return;
-          part.largest_margin = margin;
-          part.largest_at = p;
-        };
-        include(part.from.margin, part.from.p);
-        for (const RangeSample& sample : samples) {
-          const double p = sampler.parameter(sample.place);
-          if (before(part.from.p, p) && before(p, part.to.p)) include(sample.margin, p);
-        }
-        include(part.to.margin, part.to.p);
-      }
-      result.push_back(part);
-    }
+    if (is_left) result.push_back(rest.from.p == range.from.p ? rest : with_margins(rest));
   }
   std::stable_sort(result.begin(), result.end(),
                    [&](const StableRange& a, const StableRange& b) { return before(a.from.p, b.from.p); });

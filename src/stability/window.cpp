@@ -1,7 +1,8 @@
 #include "stability/window.hpp"
 
-#include <sstream>
 #include <stdexcept>
+
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -74,10 +75,7 @@ const std::string& Window::name(int coordinate) const {
 }
 
 std::string Window::value_text(int coordinate, double u) const {
-  std::ostringstream text;
-  text.precision(8);
-  text << declared(Place::Constant(u))[coordinate];
-  return text.str();
+  return short_text(declared(Place::Constant(u))[coordinate], 8);
 }
 
 std::string Window::text(const Place& place) const {

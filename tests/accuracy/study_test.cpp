@@ -174,7 +174,8 @@ TEST(Study, HasARunForEverySetting) {
   const StudyOptions options{
       .tolerances = {1e-4, 1e-6}, .orders = {2, 3}, .grids = {10}, .samples = 5, .repeat = 1};
   int last = 0;
-  const Study study = accuracy_study(setting, options, [&](int done, int all) {
+  Threads one(1);
+  const Study study = accuracy_study(setting, options, one, [&](int done, int all) {
     EXPECT_EQ(done, ++last);
     EXPECT_EQ(all, 14);
   });

@@ -37,16 +37,19 @@ void expect_same(const BoundaryResult& a, const BoundaryResult& b) {
   EXPECT_EQ(a.counts.spectra, b.counts.spectra);
 }
 
+BoundaryResult found_by(int jobs, const BoundarySetup& setup) {
+  Threads threads(jobs);
+  const auto lines = numbers_to(boundary_lines(setup.options));
+  const auto scans = scan_boundaries(*setup.model, setup.options, lines, threads);
+  return follow_boundaries(*setup.model, setup.options, scans, threads);
+}
+
 TEST(BoundaryWorkers, AnyNumberFindsTheSame) {
   const BoundarySetup setup = several_curves();
-  Threads one(1);
-  const BoundaryResult alone = find_boundaries(*setup.model, setup.options, one);
+  const BoundaryResult alone = found_by(1, setup);
   EXPECT_GE(alone.curves.size(), 4U);
   EXPECT_FALSE(alone.corners.empty());
-  for (const int jobs : {2, 3, 16}) {
-    Threads threads(jobs);
-    expect_same(find_boundaries(*setup.model, setup.options, threads), alone);
-  }
+  for (const int jobs : {2, 3, 16}) expect_same(found_by(jobs, setup), alone);
 }
 
 TEST(BoundaryWorkers, LinesThatWereSearchedApartGiveTheSame) {
@@ -58,8 +61,7 @@ TEST(BoundaryWorkers, LinesThatWereSearchedApartGiveTheSame) {
     const auto found = scan_boundaries(*setup.model, setup.options, lines, threads);
     for (std::size_t i = 0; i < lines.size(); ++i) scans[lines[i]] = found[i];
   }
-  expect_same(follow_boundaries(*setup.model, setup.options, scans, threads),
-              find_boundaries(*setup.model, setup.options, threads));
+  expect_same(follow_boundaries(*setup.model, setup.options, scans, threads), found_by(2, setup));
   scans[3].pop_back();
   EXPECT_THROW((void)follow_boundaries(*setup.model, setup.options, scans, threads), InputError);
 }

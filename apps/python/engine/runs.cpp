@@ -134,7 +134,8 @@ Outcome run_accuracy(const Scene& scene, const Options& options, const std::vect
     TraceSetup setup = prepare_trace(scene, options);
     outcome.remarks = remarks_on(setup.scene, *setup.model);
     project_if_large(setup.model, setup.options);
-    const Study study = accuracy_study(setup, study_options, [&](int done, int all) {
+    Threads one(1);
+    const Study study = accuracy_study(setup, study_options, one, [&](int done, int all) {
       watch.require(static_cast<double>(done) / all, done);
     });
     if (!study.reference.samples.empty()) return study_file(setup, study_options, study);

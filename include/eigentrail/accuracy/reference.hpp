@@ -34,6 +34,8 @@ struct [[nodiscard]] ReferenceSpectrum {
   ReferenceStatus status = ReferenceStatus::not_available;
   std::vector<ExtendedComplex> s;  ///< finite eigenvalues, one per complex pair, Im s >= 0
   double correction = 0.0;  ///< largest last correction of all stages, relative: an estimate of the error
+
+  std::vector<Complex> nearest_doubles() const;
 };
 
 /// The refinement has converged if its last relative correction is at most this.

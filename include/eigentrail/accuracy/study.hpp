@@ -107,7 +107,5 @@ GridRuns measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Me
 /// the end.
 Study accuracy_study(TraceSetup& setup, const StudyOptions& options, Workers& workers,
                      const std::function<void(int, int)>& progress);
-Study accuracy_study(TraceSetup& setup, const StudyOptions& options,
-                     const std::function<void(int, int)>& progress);
 
 }  // namespace eigentrail

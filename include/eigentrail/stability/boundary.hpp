@@ -135,12 +135,10 @@ using BoundaryProgress = std::function<void(double, int)>;
 /// std::invalid_argument if `model` lacks a parameter.
 BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options,
                                const BoundaryProgress& progress = {});
-/// The same with other workers than the threads of this process; the result does not depend on them.
-BoundaryResult find_boundaries(const Model& model, const BoundaryOptions& options, Workers& workers,
-                               const BoundaryProgress& progress = {});
 
-// The two halves of find_boundaries, for searches whose lines are shared among machines. The second half
-// needs what the first found on all lines.
+// The two halves of find_boundaries, for other workers than the threads of this process, and for searches
+// whose lines are shared among machines. The second half needs what the first found on all lines. The result
+// does not depend on the workers.
 
 /// Number of lines of the window that are searched, the edges included.
 std::size_t boundary_lines(const BoundaryOptions& options);

@@ -1,7 +1,6 @@
 #include "accuracy/verify/checked_file.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
 #include "eigentrail/continuation/event_kinds.hpp"
@@ -79,12 +78,6 @@ CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup) {
   CheckedFile file{loci, setup, {setup.options.tolerance, loci.number("reference")}, {}};
   for (const LociEvent& event : loci.events) file.events.push_back(event_of(loci, event));
   return file;
-}
-
-std::string few_digits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
 }
 
 std::string count_text(std::size_t count, const std::string& what) {

@@ -37,9 +37,6 @@ struct CheckedFile {
 /// Throws InputError if an event cannot be read.
 CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup);
 
-/// A number in few digits, for words.
-std::string few_digits(double value);
-
 /// "1 point", "3 points".
 std::string count_text(std::size_t count, const std::string& what);
 

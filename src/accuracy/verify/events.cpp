@@ -6,6 +6,7 @@
 #include "accuracy/verify/comparisons.hpp"
 #include "accuracy/verify/spectrum_errors.hpp"
 #include "continuation/events/criterion.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 
 namespace eigentrail {
@@ -94,8 +95,9 @@ std::string broken_condition(const CheckedFile& file, const Event& event, std::s
   const double value =
       criterion_value(*criterion, event.s, file.setup.options.events,
                       file.setup.model->description().parameters, file.setup.parameters_at(event.p));
-  return std::abs(value) <= rounding * scale ? ""
-                                             : "its eigenvalue has not the value " + few_digits(event.value);
+  return std::abs(value) <= rounding * scale
+             ? ""
+             : "its eigenvalue has not the value " + short_text(event.value, 3);
 }
 
 std::string fault_of(const CheckedFile& file, const Event& event, FreshSolver& solver) {

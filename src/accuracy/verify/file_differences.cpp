@@ -15,17 +15,15 @@
 namespace eigentrail {
 namespace {
 
+template <class Element>
+bool is_same(const Element& a, const Element& b) {
+  return a == b;
+}
 bool is_same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 bool is_same(Complex a, Complex b) {
   return is_same(a.real(), b.real()) && is_same(a.imag(), b.imag());
-}
-bool is_same(std::int64_t a, std::int64_t b) {
-  return a == b;
-}
-bool is_same(const std::string& a, const std::string& b) {
-  return a == b;
 }
 
 std::string text_of(double value) {

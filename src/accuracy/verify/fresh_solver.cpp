@@ -154,10 +154,7 @@ std::vector<Complex> FreshSolver::refined_spectrum_at(const PathPosition& positi
   const ReferenceSpectrum reference =
       reference_spectrum(problem_, loci_.parameter_at(position), guess_at(position));
   if (reference.status != ReferenceStatus::converged) return eigenvalues_of(point_at(position), true);
-  std::vector<Complex> exact;
-  for (const ExtendedComplex& s : reference.s)
-    exact.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
-  return exact;
+  return reference.nearest_doubles();
 }
 
 }  // namespace eigentrail

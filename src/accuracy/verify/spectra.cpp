@@ -6,6 +6,7 @@
 #include "accuracy/verify/comparisons.hpp"
 #include "accuracy/verify/spectrum_errors.hpp"
 #include "accuracy/verify/stored_scene.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -60,7 +61,7 @@ class SpectrumComparison {
       worst_place_ = file_.mode_at(mode, p);
     }
     if (worst > file_.accuracy.tolerance)
-      return wrong("eigenvalue of " + file_.mode_at(mode, p) + " is off by " + few_digits(worst) +
+      return wrong("eigenvalue of " + file_.mode_at(mode, p) + " is off by " + short_text(worst, 3) +
                    " of its magnitude, " + of_tolerance(worst));
     const std::ptrdiff_t missing = follows_all_ ? missing_modes(s, exact, largest_) : 0;
     if (missing > 0)
@@ -74,7 +75,8 @@ class SpectrumComparison {
                        (solver_.is_of_large_model() ? "by shift-invert of the whole model" : "by QZ");
     if (refined_ > 0) text += ", at " + std::to_string(refined_) + " of them refined";
     if (solved_ > 0)
-      text += ": worst discrepancy " + few_digits(worst_) + ", " + of_tolerance(worst_) + ": " + worst_place_;
+      text +=
+          ": worst discrepancy " + short_text(worst_, 3) + ", " + of_tolerance(worst_) + ": " + worst_place_;
     else
       faults_.push_back("nothing was compared with a spectrum");
     return {std::move(text), std::move(faults_)};
@@ -87,7 +89,7 @@ class SpectrumComparison {
   }
 
   std::string of_tolerance(double error) const {
-    return few_digits(error / file_.accuracy.tolerance) + " of the tolerance " +
+    return short_text(error / file_.accuracy.tolerance, 3) + " of the tolerance " +
            exact_text(file_.accuracy.tolerance);
   }
 

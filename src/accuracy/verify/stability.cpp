@@ -4,6 +4,7 @@
 
 #include "accuracy/verify/comparisons.hpp"
 #include "accuracy/verify/spectrum_errors.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/stability/permanent_modes.hpp"
 
 namespace eigentrail {
@@ -12,26 +13,30 @@ namespace {
 /// A real part at a stored point is not zero if it is larger than this times max(|s|, reference).
 constexpr double vanishing_real_part = 1e-9;
 
-/// Numbers of eigenvalues at a stored point, both members of pairs counted.
+/// Numbers of eigenvalues at a place, both members of pairs counted. Modes that are zero throughout do not
+/// count.
 struct Census {
   int all = 0, growing = 0, real = 0;
-  bool knows_growing = true;  ///< no real part is zero within its error
+  int surely_growing = 0, surely_decaying = 0;  ///< beyond their errors
+
+  bool knows_growing() const { return surely_growing + surely_decaying == all; }
 };
 
-Census census_at(const CheckedFile& file, std::size_t node, const std::vector<Permanence>& permanence) {
-  const LociFile& loci = file.loci;
-  const PathPosition place = file.node(node);
-  const ComplexVector s = loci.eigenvalues_at(place);
-  const Vector errors = eigenvalue_errors(loci, place, s, vanishing_real_part, file.accuracy);
+/// `level`: error of the eigenvalues, as in eigenvalue_errors.
+Census census_at(const CheckedFile& file, const PathPosition& place, double level,
+                 const std::vector<Permanence>& permanence) {
+  const ComplexVector s = file.loci.eigenvalues_at(place);
+  const Vector errors = eigenvalue_errors(file.loci, place, s, level, file.accuracy);
   Census census;
   for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
-    if (!std::isfinite(s[mode].real()) || permanence[static_cast<std::size_t>(mode)] == Permanence::zero)
-      continue;
+    const double growth = s[mode].real();
+    if (!std::isfinite(growth) || permanence[static_cast<std::size_t>(mode)] == Permanence::zero) continue;
     const int members = s[mode].imag() == 0.0 ? 1 : 2;
     census.all += members;
-    census.growing += s[mode].real() > 0.0 ? members : 0;
+    census.growing += growth > 0.0 ? members : 0;
     census.real += s[mode].imag() == 0.0 ? 1 : 0;
-    census.knows_growing = census.knows_growing && std::abs(s[mode].real()) > errors[mode];
+    census.surely_growing += growth > errors[mode] ? members : 0;
+    census.surely_decaying += growth < -errors[mode] ? members : 0;
   }
   return census;
 }
@@ -78,7 +83,7 @@ bool has_collision(const CheckedFile& file, std::size_t from, std::size_t to) {
 
 std::string between(const CheckedFile& file, std::size_t from, std::size_t to) {
   const auto [low, high] = std::minmax(file.loci.p[from], file.loci.p[to]);
-  return "between " + file.at(low) + " and " + few_digits(high);
+  return "between " + file.at(low) + " and " + short_text(high, 3);
 }
 
 void compare_counts(const CheckedFile& file, Comparison& result) {
@@ -88,13 +93,13 @@ void compare_counts(const CheckedFile& file, Comparison& result) {
   std::vector<Census> counts;
   std::size_t compared = 0;
   for (std::size_t node = 0; node < loci.n_nodes(); ++node) {
-    counts.push_back(census_at(file, node, permanence));
+    counts.push_back(census_at(file, file.node(node), vanishing_real_part, permanence));
     const Census& here = counts.back();
     if (node > 0 && goes_on(file, node - 1) && here.all == counts[node - 1].all &&
         here.real != counts[node - 1].real && !has_collision(file, node - 1, node))
       result.faults.push_back(between(file, node - 1, node) +
                               " the number of real eigenvalues changes without a collision");
-    if (!here.knows_growing) continue;
+    if (!here.knows_growing()) continue;
     if (known && counts[*known].all == here.all) {
       const std::optional<int> told = change_by_events(file, *known, node);
       const int seen = here.growing - counts[*known].growing;
@@ -108,27 +113,6 @@ void compare_counts(const CheckedFile& file, Comparison& result) {
   }
   result.compared = "numbers of growing and of real eigenvalues on " + count_text(compared, "step") +
                     " against the special points";
-}
-
-/// Whether some mode grows, and whether all decay, beyond the errors at a place. Modes that are zero
-/// throughout do not count.
-struct Growth {
-  bool grows = false, all_decay = true;
-};
-
-Growth growth_at(const CheckedFile& file, const PathPosition& place,
-                 const std::vector<Permanence>& permanence) {
-  const double level = place.t == 0.0 ? vanishing_real_part : file.accuracy.tolerance;
-  const ComplexVector s = file.loci.eigenvalues_at(place);
-  const Vector errors = eigenvalue_errors(file.loci, place, s, level, file.accuracy);
-  Growth growth;
-  for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
-    if (!std::isfinite(s[mode].real()) || permanence[static_cast<std::size_t>(mode)] == Permanence::zero)
-      continue;
-    growth.grows = growth.grows || s[mode].real() > errors[mode];
-    growth.all_decay = growth.all_decay && s[mode].real() < -errors[mode];
-  }
-  return growth;
 }
 
 /// Whether p lies between the ends of a range, by more than `margin`.
@@ -166,14 +150,15 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
   for (std::size_t step = 0; step < loci.steps.size(); ++step) {
     for (const double t : {0.0, 0.5}) {
       const double p = loci.parameter_at({step, t});
-      const Growth growth = growth_at(file, {step, t}, permanence);
+      const double level = t == 0.0 ? vanishing_real_part : file.accuracy.tolerance;
+      const Census census = census_at(file, {step, t}, level, permanence);
       const auto is_in = [&](double by) {
         return std::any_of(loci.ranges->begin(), loci.ranges->end(),
                            [&](const StableRange& range) { return holds(range, p, by); });
       };
-      if (growth.grows && is_in(margin))
+      if (census.surely_growing > 0 && is_in(margin))
         result.faults.push_back("a mode grows at " + file.at(p) + ", within a stable range");
-      if (growth.all_decay && file.setup.options.modes.is_all() && !is_in(-margin))
+      if (census.surely_decaying == census.all && file.setup.options.modes.is_all() && !is_in(-margin))
         result.faults.push_back("all modes decay at " + file.at(p) + ", outside the stable ranges");
     }
   }

@@ -74,8 +74,11 @@ void find_matrices(Scene& scene, const std::string& path) {
       "which the trace was made, or put both beside the loci file");
 }
 
-/// The scene and the options of the trace in the file.
-TraceSetup rebuild(const LociFile& loci) {
+}  // namespace
+
+/// Messages name the loci file: errors in the scene and the options are those of the
+/// stored text, not of a scene file that may have changed since.
+TraceSetup setup_of(const LociFile& loci) try {
   OptionTexts options;
   for (const auto& [name, text] : loci.attributes) {
     const std::string key = name.starts_with("option_") ? name.substr(7) : "";
@@ -95,18 +98,8 @@ TraceSetup rebuild(const LociFile& loci) {
                      std::to_string(loci.multiplier.cols()));
   }
   return setup;
-}
-
-}  // namespace
-
-/// Messages name the loci file: errors in the scene and the options are those of the
-/// stored text, not of a scene file that may have changed since.
-TraceSetup setup_of(const LociFile& loci) {
-  try {
-    return rebuild(loci);
-  } catch (const InputError& error) {
-    throw InputError(loci.path + ": cannot be solved afresh: " + error.what());
-  }
+} catch (const InputError& error) {
+  throw InputError(loci.path + ": cannot be solved afresh: " + error.what());
 }
 
 }  // namespace eigentrail
