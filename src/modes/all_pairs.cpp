@@ -201,11 +201,8 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
     pair.Z = pairs.Z.middleCols(place.first, place.size);
     pair.Lambda = pairs.block(pairs.Lambda, place);
     pair.W = pairs.W.middleCols(place.first, place.size);
-    const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(place.size));
-    const double scale = pencil.magnitude(size) * pair.Z.norm();
-    pair.backward_error = scale > 0.0 ? R.middleCols(place.first, place.size).norm() / scale : 0.0;
-    settle_accuracy(basis->sensitivity(place, pencil.terms(pair.Z, pair.Lambda)), scale,
-                    std::max(size, reference), pair);
+    settle_accuracy(pencil, R.middleCols(place.first, place.size).norm(),
+                    basis->sensitivity(place, pencil.terms(pair.Z, pair.Lambda)), reference, pair);
     corrected.push_back(std::move(pair));
   }
   return std::make_shared<const AllPairs>(AllPairs{std::move(pairs), std::move(*basis)});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 
 namespace eigentrail {
@@ -52,12 +53,6 @@ void check_coordinates(const GivenName& given, const std::vector<std::string>& c
   }
 }
 
-std::string names_of(const std::vector<NamedMode>& modes) {
-  std::string text;
-  for (const NamedMode& mode : modes) text += (text.empty() ? "" : ", ") + mode.name;
-  return text;
-}
-
 }  // namespace
 
 std::vector<std::size_t> modes_of_names(const std::vector<GivenName>& given,
@@ -87,9 +82,10 @@ std::vector<std::size_t> modes_of_names(const std::vector<GivenName>& given,
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (chosen[i] != modes.size()) continue;
-    const std::string what = given[i].moves.empty() ? "no mode is left for it"
-                                                    : "the name of no mode holds \"" + given[i].moves +
-                                                          "\"; they are: " + names_of(modes);
+    const std::string what = given[i].moves.empty()
+                                 ? "no mode is left for it"
+                                 : "the name of no mode holds \"" + given[i].moves +
+                                       "\"; they are: " + joined(modes, ", ", &NamedMode::name);
     throw InputError(label + " " + given[i].name + ": where the trace begins, " + what);
   }
   return chosen;

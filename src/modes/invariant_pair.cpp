@@ -100,17 +100,15 @@ std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil,
 
 namespace {
 
+/// Typical size of the eigenvalues of a pair.
+double size_of_eigenvalues(const InvariantPair& pair) {
+  return pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
+}
+
 /// Scale of the residuals of a pair: the magnitude of the pencil at the typical size of its eigenvalues,
 /// times |Z|.
 double residual_scale(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
-  return pencil.magnitude(size) * pair.Z.norm();
-}
-
-/// |residual| / (magnitude |Z|) of a pair.
-double backward_error(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  const double scale = residual_scale(pencil, pair);
-  return scale > 0.0 ? pencil.residual(pair.Z, pair.Lambda).norm() / scale : 0.0;
+  return pencil.magnitude(size_of_eigenvalues(pair)) * pair.Z.norm();
 }
 
 /// Relative size of a correction up to which it may be rounding, for a pencil whose terms are not much larger
@@ -124,7 +122,7 @@ constexpr double ill_conditioned = 1e-7;
 /// By how much rounding of the terms s^2 M, s C, K is magnified in s and z because the pencil changes little
 /// with s: |P| / |s P'|. Of the order of one for well-scaled pencils, also at exceptional points.
 double magnified_rounding(const PencilAtPoint& pencil, const InvariantPair& pair) {
-  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
+  const double size = size_of_eigenvalues(pair);
   const double change = (2.0 * size * pencil.norm_M + pencil.norm_C) * size;
   return change > 0.0 ? std::max(1.0, pencil.magnitude(size) / change) : 1.0;
 }
@@ -213,16 +211,17 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   pair.status = newton(pencil, reference, options, pair, counts);
   if (pair.status != PairStatus::converged) return pair;
   remove_remnants(reference, pair.Lambda);
-  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
-  pair.backward_error = backward_error(pencil, pair);
-  settle_accuracy(pair.factors->sensitivity(pencil.terms(pair.Z, pair.Lambda)), residual_scale(pencil, pair),
-                  std::max(size, reference), pair);
+  settle_accuracy(pencil, pencil.residual(pair.Z, pair.Lambda).norm(),
+                  pair.factors->sensitivity(pencil.terms(pair.Z, pair.Lambda)), reference, pair);
   counts.solves += static_cast<std::uint64_t>(pair.size() * pair.size());
   return pair;
 }
 
-void settle_accuracy(const PairSensitivity& sensitivity, double scale, double size, InvariantPair& pair) {
-  pair.condition = sensitivity.to_residual * scale / size;
+void settle_accuracy(const PencilAtPoint& pencil, double residual, const PairSensitivity& sensitivity,
+                     double reference, InvariantPair& pair) {
+  const double scale = residual_scale(pencil, pair);
+  pair.backward_error = scale > 0.0 ? residual / scale : 0.0;
+  pair.condition = sensitivity.to_residual * scale / std::max(size_of_eigenvalues(pair), reference);
   pair.rounding = std::numeric_limits<double>::epsilon() * sensitivity.to_terms;
 }
 

@@ -13,20 +13,6 @@ namespace {
 
 constexpr double least_rcond = 1e-9;  ///< smallest accepted reciprocal condition of M and of the modal basis
 
-/// Inverse of X -> X L - D X for small square D and L, acting on vec X.
-ComplexMatrix inverse_sylvester(const ComplexMatrix& D, const ComplexMatrix& L) {
-  const Eigen::Index m = D.rows();
-  const Eigen::Index k = L.rows();
-  ComplexMatrix system = ComplexMatrix::Zero(m * k, m * k);
-  for (Eigen::Index j = 0; j < k; ++j) {
-    system.block(j * m, j * m, m, m) = -D;
-    for (Eigen::Index i = 0; i < k; ++i) {
-      for (Eigen::Index l = 0; l < m; ++l) system(j * m + l, i * m + l) += L(i, j);
-    }
-  }
-  return system.partialPivLu().inverse();
-}
-
 /// The inverse of a matrix; empty if it is ill-conditioned. Many leading matrices are diagonal.
 std::optional<Matrix> inverse_of(const Matrix& A) {
   if (A.isDiagonal(0.0)) {
@@ -53,6 +39,17 @@ std::optional<Matrix> inverse_of_leading(const PencilAtPoint& pencil, const std:
 }
 
 }  // namespace
+
+ComplexMatrix inverse_sylvester(const ComplexMatrix& D, const ComplexMatrix& L) {
+  const Eigen::Index m = D.rows();
+  const Eigen::Index k = L.rows();
+  ComplexMatrix system = ComplexMatrix::Zero(m * k, m * k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    system.block(j * m, j * m, m, m) = -D;
+    for (Eigen::Index i = 0; i < k; ++i) system.block(j * m, i * m, m, m).diagonal().array() += L(i, j);
+  }
+  return system.partialPivLu().inverse();
+}
 
 ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z) {
   if (B.isDiagonal(0.0)) return B.diagonal().asDiagonal() * Z;

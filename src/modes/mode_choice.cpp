@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <tuple>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -21,10 +21,6 @@ std::tuple<double, double> distance_from_wanted(const ModeChoice& choice, Comple
       choice.band ? std::max({choice.band->lowest - s.imag(), s.imag() - choice.band->highest, 0.0}) : 0.0;
   const double excess = choice.damping_below ? std::max(damping_ratio(s) - *choice.damping_below, 0.0) : 0.0;
   return {from_band, excess};
-}
-
-auto by_magnitude(const StartingMode& mode) {
-  return std::tuple(std::abs(mode.s), mode.s.imag(), mode.s.real());
 }
 
 }  // namespace
@@ -55,11 +51,8 @@ int choose_modes(const ModeChoice& choice, std::vector<StartingMode>& modes) {
   }
   const auto wanted = static_cast<int>(end - modes.begin());
   const int count = std::min(choice.count.value_or(wanted), wanted);
-  const auto less = [](const StartingMode& a, const StartingMode& b) {
-    return by_magnitude(a) < by_magnitude(b);
-  };
-  std::stable_sort(modes.begin(), modes.begin() + count, less);
-  std::stable_sort(modes.begin() + count, modes.end(), less);
+  std::stable_sort(modes.begin(), modes.begin() + count, comes_before);
+  std::stable_sort(modes.begin() + count, modes.end(), comes_before);
   return count;
 }
 
@@ -78,11 +71,7 @@ std::string text_of(const ModeChoice& choice) {
 }
 
 std::string in_words(const ModeChoice& choice) {
-  const auto rounded = [](double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-  };
+  const auto rounded = [](double value) { return short_text(value, 6); };
   if (choice.is_all()) return "all modes";
   std::string text = "the ";
   if (choice.count) text += std::to_string(*choice.count) + " ";

@@ -13,4 +13,7 @@ ComplexMatrix residual(const PencilAtPoint& pencil, const PairSet& pairs);
 /// rows.
 ComplexMatrix multiply_many(const Matrix& B, const ComplexMatrix& Z);
 
+/// Inverse of X -> X L - D X for small square D and L, acting on vec X.
+ComplexMatrix inverse_sylvester(const ComplexMatrix& D, const ComplexMatrix& L);
+
 }  // namespace eigentrail

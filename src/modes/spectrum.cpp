@@ -240,15 +240,6 @@ Eigenvalues<typename Values::Scalar> eigenvalues_of(const Values& M, const Value
                                                      : by_qz(M, C, K, false);
 }
 
-/// By increasing |s|.
-void sort(Spectrum& spectrum) {
-  std::stable_sort(spectrum.modes.begin(), spectrum.modes.end(),
-                   [](const StartingMode& p, const StartingMode& q) {
-                     return std::tuple(std::abs(p.s), p.s.imag(), p.s.real()) <
-                            std::tuple(std::abs(q.s), q.s.imag(), q.s.real());
-                   });
-}
-
 /// Collects the finite modes with Im s >= 0 in the order of increasing |s|; the others are conjugates of
 /// them, or in a complex part of modes of the conjugate part.
 template <class Scalar>
@@ -264,7 +255,7 @@ void take_modes(const Homogeneous<Scalar>& all, Eigen::Index n, Spectrum& spectr
     spectrum.modes.push_back({s, {}});
     if (all.vectors.size() > 0) spectrum.modes.back().z = right_vector(all.vectors.col(j), n);
   }
-  sort(spectrum);
+  std::stable_sort(spectrum.modes.begin(), spectrum.modes.end(), comes_before);
 }
 
 template <class Values>
@@ -292,6 +283,11 @@ Spectrum solve(const Values& M, const Values& C, const Values& K, bool with_vect
 }
 
 }  // namespace
+
+bool comes_before(const StartingMode& a, const StartingMode& b) {
+  const auto key = [](Complex s) { return std::tuple(std::abs(s), s.imag(), s.real()); };
+  return key(a.s) < key(b.s);
+}
 
 Spectrum compute_spectrum(const Matrix& M, const Matrix& C, const Matrix& K) {
   return solve(M, C, K, true);
@@ -350,7 +346,7 @@ Spectrum solve_parts(const ReducedPencil& pencil, bool with_vectors) {
     all.n_infinite += own.n_infinite;
     all.scale = std::max(all.scale, own.scale);
   }
-  sort(all);
+  std::stable_sort(all.modes.begin(), all.modes.end(), comes_before);
   return all;
 }
 

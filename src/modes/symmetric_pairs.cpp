@@ -221,12 +221,9 @@ InvariantPair pair_of(const PencilAtPoint& pencil, const SymmetricPairs::Pair& o
   pair.Z = std::move(values.Z[0]);
   pair.Lambda = std::move(values.Lambda[0]);
   pair.W = of.W;
-  const double size = pair.Lambda.norm() / std::sqrt(static_cast<double>(pair.size()));
-  const double scale = pencil.magnitude(size) * pair.Z.norm();
   // Z = X T with a matrix T, so the residual of the pair scales with |Z| / |X|.
-  pair.backward_error = scale > 0.0 ? pair.Z.norm() * R.norm() / X.norm() / scale : 0.0;
-  settle_accuracy(sensitivity(of.root, X, lambda, of.W, pencil.terms(pair.Z, pair.Lambda)), scale,
-                  std::max(size, reference), pair);
+  settle_accuracy(pencil, pair.Z.norm() * R.norm() / X.norm(),
+                  sensitivity(of.root, X, lambda, of.W, pencil.terms(pair.Z, pair.Lambda)), reference, pair);
   return pair;
 }
 

@@ -326,14 +326,6 @@ ComplexMatrix SparsePencil::allowed(const ComplexMatrix& vectors) const {
          Complex(0.0, 1.0) * constraints->allowed_part(vectors.imag()).cast<Complex>();
 }
 
-ComplexMatrix SparsePencil::times(Complex s, const ComplexMatrix& Z) const {
-  return s * s * (M * Z) + s * (C * Z) + K * Z;
-}
-
-ComplexMatrix SparsePencil::transposed_times(Complex s, const ComplexMatrix& Z) const {
-  return s * s * (M.transpose() * Z) + s * (C.transpose() * Z) + K.transpose() * Z;
-}
-
 ShiftedMatrix shifted_matrix(const SparsePencil& pencil, const Shift& shift) {
   const double square = shift.real * shift.real - shift.frequency * shift.frequency;
   // Zero factors keep the pattern of the sum, so that it is analyzed once.

@@ -24,9 +24,6 @@ struct SparsePencil {
   Eigen::Index freedoms() const { return K.rows() - A.rows(); }
   /// The parts of vectors, n x k, that the constraints allow; of forces, what constraint forces leave.
   ComplexMatrix allowed(const ComplexMatrix& vectors) const;
-  /// M s^2 + C s + K times Z, n x k.
-  ComplexMatrix times(Complex s, const ComplexMatrix& Z) const;
-  ComplexMatrix transposed_times(Complex s, const ComplexMatrix& Z) const;
 };
 
 /// A shift on the real axis or on the imaginary one.

@@ -1,12 +1,11 @@
 #include "eigentrail/projection/project.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "projection/large_model.hpp"
 #include "projection/mode_entries.hpp"
@@ -31,12 +30,6 @@ constexpr double accuracy_of_added_vectors = 0.1;
 /// Up to this size of the large model a projection on two spaces saves more in one trace than looking at all
 /// places once more costs: measured, 0.1 s against 14 us per freedom.
 constexpr Eigen::Index largest_on_two_spaces = 8000;
-
-std::string digits(double value, int count) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", count, value);
-  return text.data();
-}
 
 class Projector {
  public:
@@ -290,8 +283,8 @@ class Projector {
                                 ? "a mode that is not followed comes among the followed ones, "
                                 : std::to_string(found.count) +
                                       " modes that are not followed come among the followed ones, the first ";
-    projection_.notes.push_back(who + "between " + trace_.parameter + " = " + digits(found.from, 5) +
-                                " and " + digits(found.to, 5) + ", at " + digits(found.frequency, 4) +
+    projection_.notes.push_back(who + "between " + trace_.parameter + " = " + short_text(found.from, 5) +
+                                " and " + short_text(found.to, 5) + ", at " + short_text(found.frequency, 4) +
                                 " rad/s; to follow more, ask for more modes");
   }
 
@@ -359,9 +352,9 @@ class Projector {
                                  const std::string& why) {
     projection_.error = error;
     projection_.error_at = worst.place->at.p;
-    projection_.notes.push_back("the projection leaves an error of about " + digits(error, 2) + " at " +
+    projection_.notes.push_back("the projection leaves an error of about " + short_text(error, 2) + " at " +
                                 trace_.parameter + " = " + exact_text(worst.place->at.p) + " " + why +
-                                "; asked for were " + digits(target_, 2));
+                                "; asked for were " + short_text(target_, 2));
     return settled(std::move(model));
   }
 

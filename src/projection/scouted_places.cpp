@@ -63,7 +63,6 @@ void ScoutedPlaces::scout(const Model& model, const ParameterValues& line) {
   options.tolerance = std::max(trace_.tolerance, scout_tolerance);
   options.certify = false;
   options.events = {};
-  options.events.extrema = false;
   options.events.veerings = false;
   options.events.other_paths = false;
   options.order.reset();

@@ -170,9 +170,10 @@ void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, d
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts);
 
-/// Sets condition and rounding of a pair. `scale`: of its residual, |residual| / backward_error; `size`: that
-/// of its eigenvalues, at least the reference.
-void settle_accuracy(const PairSensitivity& sensitivity, double scale, double size, InvariantPair& pair);
+/// Sets backward error, condition and rounding of a pair. `residual`: norm of that of the pair; `reference`:
+/// as above.
+void settle_accuracy(const PencilAtPoint& pencil, double residual, const PairSensitivity& sensitivity,
+                     double reference, InvariantPair& pair);
 
 /// The factors of the pair, or new factors at the pair if it has none.
 std::shared_ptr<const PairFactorization> factors_of(const PencilAtPoint& pencil, const InvariantPair& pair);

@@ -16,6 +16,9 @@ struct StartingMode {
       false;  ///< zero for every value of the parameter, and left out of choices of modes
 };
 
+/// The order of the modes of a spectrum: by |s|, then by Im s and Re s.
+bool comes_before(const StartingMode& a, const StartingMode& b);
+
 enum class SpectrumStatus { complete, singular_pencil, not_converged };
 
 struct [[nodiscard]] Spectrum {

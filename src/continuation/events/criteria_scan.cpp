@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/bisection.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -23,16 +25,6 @@ constexpr double slope_width = 1e-3;
 /// they are known to the square root of rounding only.
 constexpr double before_meeting = 1e-7;
 
-/// The place between `from` and `to` up to which a condition holds, by so many bisections.
-template <class Condition>
-double bisected(double from, double to, int halvings, const Condition& holds) {
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (from + to);
-    (holds(middle) ? from : to) = middle;
-  }
-  return 0.5 * (from + to);
-}
-
 /// Place of the extremum between one interval before t = about and one after it.
 double extremum_near(CriteriaOnStep& on_step, const Criterion& criterion, std::size_t member, double about) {
   const auto slope = [&](double t) {
@@ -42,7 +34,7 @@ double extremum_near(CriteriaOnStep& on_step, const Criterion& criterion, std::s
   const double from = std::max(on_step.begin(), about - 1.0 / samples_per_step);
   const double to = std::min(1.0, about + 1.0 / samples_per_step);
   const double behind = slope(to);
-  return bisected(from, to, extremum_halvings, [&](double t) { return !(slope(t) * behind > 0.0); });
+  return bisected(from, to, extremum_halvings, [&](double t) { return !(slope(t) * behind > 0.0); }).middle();
 }
 
 /// Samples the eigenvalues of one track.
@@ -149,8 +141,8 @@ class TrackScan {
     if (seen == Seen::extremum && track().departure && at.last <= on_step_.begin()) return;
     if (seen == Seen::zero && !criterion.asks_for_extrema()) {
       const double guess = bisected(at.last, at.t, sign_halvings, [&](double t) {
-        return on_step_.value(criterion, member, t) * before > 0.0;
-      });
+                             return on_step_.value(criterion, member, t) * before > 0.0;
+                           }).middle();
       if (!locate_at(member, {criterion, pair, Sought::zero, value}, guess) && !criterion.asks_for_pairs())
         note_unlocated(member, guess);
     } else if (seen == Seen::extremum && criterion.asks_for_extrema()) {

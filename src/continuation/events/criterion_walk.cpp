@@ -109,8 +109,8 @@ class CriterionWalk {
   Sight look(double distance);
   Ending ending(const ComplexVector& series, int look) const;
   std::optional<double> move_behind_meeting(double distance, double move) const;
-  void finish(double offset, double distance, int looks);
-  void record(double offset, bool located, int looks);
+  void finish(double offset, double distance);
+  void record(double offset, bool located);
   int direction(double offset) const;
   double other_factor() const;
   double slope_in(const PathNode& along, const Track& along_q, const std::vector<int>& members) const;
@@ -219,21 +219,21 @@ bool CriterionWalk::run(double t) {
   rules.free_moves = 0;
   const Walk found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
   if (found.end == WalkEnd::absent) {
-    if (ending_ == Ending::at_meeting) record(0.0, false, looks_);
+    if (ending_ == Ending::at_meeting) record(0.0, false);
     return ending_ != Ending::unsettled;
   }
   if (found.end != WalkEnd::settled) return false;
   const double share = (found.position + found.move) / step_.h;
   const bool outside = !(share > -end_outside && share <= 1.0 + end_outside);
   if (target_.sought == Sought::zero && outside) return true;
-  finish(found.move, found.position, looks_);
+  finish(found.move, found.position);
   return true;
 }
 
 /// Decides whether the zero or extremum at `distance` + `offset` is an event, and records it. Beside an
 /// extremum near zero it locates the two zeros.
-void CriterionWalk::finish(double offset, double distance, int looks) {
-  if (target_.sought == Sought::zero) return record(offset, true, looks);
+void CriterionWalk::finish(double offset, double distance) {
+  if (target_.sought == Sought::zero) return record(offset, true);
   const double value = jet(g_, offset)[0];
   const double curvature = 2.0 * g_[2];
   if (target_.sought == Sought::extremum) {
@@ -241,11 +241,11 @@ void CriterionWalk::finish(double offset, double distance, int looks) {
     const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
     const double change = std::abs(curvature) * step_.h * step_.h / 8.0;  // over half a step
     const bool matters = change > search_.thresholds().criterion.extremum * search_.options.tolerance;
-    if (oscillates && matters) record(offset, true, looks);
+    if (oscillates && matters) record(offset, true);
     return;
   }
   if (std::abs(value) <= rounding()) {
-    record(offset, true, looks);
+    record(offset, true);
   } else if (value * curvature < 0.0) {
     const double half = std::sqrt(-2.0 * value / curvature);
     for (const double side : {-half, half}) {
@@ -294,7 +294,7 @@ double CriterionWalk::slope_in(const PathNode& along, const Track& along_q,
 
 /// Records the event at the distance `offset` from the last look. `located`: Newton's method converged there;
 /// else it is a zero at a double eigenvalue.
-void CriterionWalk::record(double offset, bool located, int looks) {
+void CriterionWalk::record(double offset, bool located) {
   const PathNode& node = mode_->solved.node;
   const Track& there = node.tracks.front();
   const EventKind asked = target_.criterion.kind;
@@ -308,7 +308,7 @@ void CriterionWalk::record(double offset, bool located, int looks) {
   if (event.kind == EventKind::flutter) event.s = Complex(0.0, std::abs(event.s.imag()));
   if (event.kind == EventKind::divergence) event.s = 0.0;
   event.modes = {track().modes[member_]};
-  event.retrackings = looks;
+  event.retrackings = looks_;
   event.node = search_.node;
   if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
   if (asked != EventKind::extremum && asked != EventKind::flutter) event.value = target_.criterion.value;

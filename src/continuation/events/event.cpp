@@ -1,5 +1,6 @@
 #include "eigentrail/continuation/event.hpp"
 
+#include "core/texts.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/core/text.hpp"
 
@@ -10,8 +11,7 @@ std::string event_name(EventKind kind) {
 }
 
 std::string event_line(const Event& event) {
-  std::string modes;
-  for (const int mode : event.modes) modes += (modes.empty() ? "" : ";") + std::to_string(mode + 1);
+  const std::string modes = joined(event.modes, ";", [](int mode) { return std::to_string(mode + 1); });
   return event_name(event.kind) + ',' + exact_text(event.p) + ',' + exact_text(event.s.real()) + ',' +
          exact_text(event.s.imag()) + ',' + modes;
 }

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
+
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
 
 std::string rounded(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
+  return short_text(value, 6);
 }
 
 /// `up` or `down` by the sign of the direction; empty if it is zero.

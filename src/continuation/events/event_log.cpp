@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 
+#include "continuation/tracks/members.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -69,9 +71,8 @@ bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) c
     // In a collision of one mode a pair touches the real axis and stays a pair. Its crossing of the imaginary
     // axis is another event.
     if (zero.kind == EventKind::flutter && other.modes.size() < 2) return false;
-    const bool takes_part = std::any_of(zero.modes.begin(), zero.modes.end(), [&](int mode) {
-      return std::find(other.modes.begin(), other.modes.end(), mode) != other.modes.end();
-    });
+    const bool takes_part = std::any_of(zero.modes.begin(), zero.modes.end(),
+                                        [&](int mode) { return contains(other.modes, mode); });
     // Beside a collision on the imaginary axis, rounding can cause zeros of Re s within the accuracy of a
     // double eigenvalue. If the collision is off the axis, a zero that has been located is a different event
     // unless its place is the same to the accuracy of a zero.

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "continuation/tracks/members.hpp"
 #include "core/matrix_series.hpp"
@@ -13,15 +12,13 @@
 namespace eigentrail {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// ds/dh of the mean of s of some eigenvalues of a block, mu = s or 1/s in its chart. The mean of s is not
 /// the inverse of the mean of 1/s: where two coincide at an exceptional point, they differ to first order.
 Complex mean_slope_of_s(const Track& track, const std::vector<Complex>& roots) {
   if (track.pair.chart == Chart::finite) return mean_slope(track, roots);
   if (roots.size() == 1) return -mean_slope(track, roots) / (roots[0] * roots[0]);
   const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
-  if (part.size() < 2) return {nan, nan};
+  if (part.size() < 2) return {NAN, NAN};
   const ComplexMatrix inverse = part[0].inverse();
   return -(inverse * part[1] * inverse).trace() / static_cast<double>(roots.size());
 }
@@ -37,8 +34,8 @@ std::optional<PathNode> slopes_along(PathProblem problem, const PathPoint& point
 
 void leave_unknown(const PathProblem& problem, Event& event) {
   const auto count = static_cast<Eigen::Index>(problem.model.description().parameters.size());
-  event.sensitivity = ComplexVector::Constant(count, Complex(nan, nan));
-  event.shift = Vector::Constant(count, nan);
+  event.sensitivity = ComplexVector::Constant(count, Complex(NAN, NAN));
+  event.shift = Vector::Constant(count, NAN);
   for (EventOfCopy& copy : event.copies) {
     copy.sensitivity = event.sensitivity;
     copy.shift = event.shift;
@@ -47,7 +44,7 @@ void leave_unknown(const PathProblem& problem, Event& event) {
 
 Complex mean_slope(const Track& track, const std::vector<Complex>& roots) {
   const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots);
-  return part.size() < 2 ? Complex(nan, nan) : mean_series(part)[1];
+  return part.size() < 2 ? Complex(NAN, NAN) : mean_series(part)[1];
 }
 
 void keep_shape(const PathNode& node, const Track& track, const std::vector<int>& members, double offset,
@@ -100,7 +97,7 @@ void keep_sensitivities(const PathProblem& problem, const PathPoint& point, cons
       if (!along) continue;
       const Track& along_q = along->tracks.front();
       sensitivity[q] = mean_slope_of_s(along_q, roots);
-      const double moved = moves ? moves(track, *along, along_q) * speed : nan;
+      const double moved = moves ? moves(track, *along, along_q) * speed : NAN;
       if (std::isfinite(moved)) shift[q] = moved;
     }
   };
@@ -114,14 +111,14 @@ void keep_sensitivities(const PathProblem& problem, const PathPoint& point, cons
 
 double shift_of_meeting(const Track& along_path, const Track& along_q, EventKind kind,
                         const std::vector<int>& members) {
-  if (members.size() != 2) return nan;
+  if (members.size() != 2) return NAN;
   const std::vector<Complex> roots = roots_of(along_path, members);
   const std::vector<ComplexMatrix> path = part_series(along_path.series.Lambda, roots);
   const std::vector<ComplexMatrix> q = part_series(along_q.series.Lambda, roots);
-  if (path.size() < 2 || q.size() < 2) return nan;
+  if (path.size() < 2 || q.size() < 2) return NAN;
   if (kind == EventKind::collision)
     return -(discriminant_series(q, 1)[1] / discriminant_series(path, 1)[1]).real();
-  if (kind != EventKind::crossing) return nan;
+  if (kind != EventKind::crossing) return NAN;
   // A semisimple double eigenvalue: the eigenvalues of the derivative of Lambda along the path are the two
   // slopes, and its eigenvectors are those of the two branches. In them, the diagonal of the derivative with
   // respect to q has the slopes in q.

@@ -1,14 +1,11 @@
 #include "continuation/events/event_search.hpp"
 
-#include <sstream>
+#include "core/texts.hpp"
 
 namespace eigentrail {
 
 std::string place_text(const TraceOptions& options, double p) {
-  std::ostringstream text;
-  text.precision(12);
-  text << options.parameter << " = " << p;
-  return text.str();
+  return options.parameter + " = " + short_text(p, 12);
 }
 
 }  // namespace eigentrail

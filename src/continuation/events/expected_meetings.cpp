@@ -29,8 +29,7 @@ bool stands_for_a_mode(const Track& track, const EigenvalueBranch& branch) {
 
 /// Whether both eigenvalues take part in a meeting at the left end, so that their gap has a known root there.
 bool have_just_met(const Track& track, const std::vector<int>& a, const std::vector<int>& b) {
-  const auto met = [&](int i) { return std::find(track.met.begin(), track.met.end(), i) != track.met.end(); };
-  return met(a.front()) && met(b.front());
+  return contains(track.met, a.front()) && contains(track.met, b.front());
 }
 
 /// Adds a position unless the list has one within this share of it: the two roots into which a double root
@@ -210,7 +209,7 @@ bool is_singular_at(const PathNode& node, const EigenvalueBranch& a, const Eigen
   for (const EigenvalueBranch* branch : {&a, &b}) {
     const std::vector<int>& met = node.tracks[branch->track].met;
     const std::vector<int> own = a.track == b.track ? united(a.members, b.members) : branch->members;
-    const auto is_own = [&](int i) { return std::find(own.begin(), own.end(), i) != own.end(); };
+    const auto is_own = [&](int i) { return contains(own, i); };
     if (std::any_of(met.begin(), met.end(), is_own) && !std::all_of(met.begin(), met.end(), is_own))
       return true;
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "continuation/tracks/members.hpp"
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -82,10 +82,7 @@ std::optional<std::string> unexplained_growth(const EventSearch& search, const S
   }
   const int seen = step.right.p > step.left->p ? *behind - *before : *before - *behind;
   if (std::abs(seen - change) <= guards_that_change(step)) return std::nullopt;
-  std::ostringstream end;
-  end.precision(12);
-  end << high;
-  return "between " + place_text(search.options, low) + " and " + end.str() +
+  return "between " + place_text(search.options, low) + " and " + short_text(high, 12) +
          " the number of eigenvalues with Re s > 0 changes by " + std::to_string(seen) +
          ", by the events that were found by " + std::to_string(change) + "; see verify";
 }

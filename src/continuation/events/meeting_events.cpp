@@ -118,9 +118,7 @@ void mark_doubtful(const std::vector<MeetingOnEnd>& meetings, PathNode& node) {
 void name_births(const std::vector<Birth>& births, FoundEvents& found) {
   for (const Birth& birth : births) {
     for (Event& event : found.events) {
-      const bool takes_part =
-          std::find(event.modes.begin(), event.modes.end(), birth.parent) != event.modes.end();
-      if (event.kind == EventKind::collision && takes_part)
+      if (event.kind == EventKind::collision && contains(event.modes, birth.parent))
         event.modes = sorted_modes(united(event.modes, {birth.born}));
     }
   }

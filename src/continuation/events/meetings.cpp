@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "continuation/events/common_collision.hpp"
 #include "continuation/events/meeting_resolution.hpp"
@@ -36,13 +35,9 @@ std::vector<ComplexMatrix> part_of_track(const Track& track, const std::vector<i
 std::vector<int> with_bystanders(const ComplexVector& roots, std::vector<int> members,
                                  double one_point = 1e-10) {
   constexpr double as_close = 3.0;  // times the largest distance among the members
-  double inside = one_point * roots.cwiseAbs().maxCoeff();
-  for (const int i : members) {
-    for (const int j : members) inside = std::max(inside, std::abs(roots[i] - roots[j]));
-  }
+  const double inside = std::max(one_point * roots.cwiseAbs().maxCoeff(), diameter(roots, members));
   std::vector<int> all = members;
-  for (int k = 0; k < static_cast<int>(roots.size()); ++k) {
-    if (std::find(members.begin(), members.end(), k) != members.end()) continue;
+  for (const int k : other_members(roots.size(), members)) {
     const bool close = std::any_of(members.begin(), members.end(),
                                    [&](int i) { return std::abs(roots[i] - roots[k]) <= as_close * inside; });
     if (close) all.push_back(k);
@@ -153,16 +148,6 @@ bool vanishes(const ComplexVector& discriminant, double reach, double resolution
   for (Eigen::Index k = discriminant.size() - 1; k >= 0; --k)
     size = size * std::abs(reach) + std::abs(discriminant[k]);
   return std::sqrt(size) <= resolution;
-}
-
-/// Least distance of members of a block from its other eigenvalues; infinite when there are none.
-double distance_from_others(const ComplexVector& roots, const std::vector<int>& members) {
-  double distance = INFINITY;
-  for (int i = 0; i < static_cast<int>(roots.size()); ++i) {
-    if (std::find(members.begin(), members.end(), i) != members.end()) continue;
-    for (const int j : members) distance = std::min(distance, std::abs(roots[i] - roots[j]));
-  }
-  return distance;
 }
 
 /// Distance within which members of a block cannot be distinguished on a step of length `reach`: at least a

@@ -27,10 +27,7 @@ std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt
   const ComplexVector roots = pair_eigenvalues(prediction.pairs.front());
   const Eigen::Index nearest = nearest_root(roots, expected);
   const Complex root = roots[nearest];
-  double gap = INFINITY;
-  for (Eigen::Index j = 0; j < roots.size(); ++j) {
-    if (j != nearest) gap = std::min(gap, std::abs(roots[j] - root));
-  }
+  const double gap = distance_from_others(roots, {static_cast<int>(nearest)});
   if (!(gap > distinct_share * std::abs(root))) return std::nullopt;
   prediction.pairs.front() = part_of(prediction.pairs.front(), roots, {static_cast<int>(nearest)});
   std::optional<SolvedPoint> there = solver.solve(prediction, base.node.basis.T[0]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
@@ -51,10 +52,9 @@ std::optional<Separation> separation(const OperatingRanges& operating, double sp
 }
 
 std::string ranges_text(const OperatingRanges& operating) {
-  std::string text;
-  for (const OperatingRange& range : operating.ranges)
-    text += (text.empty() ? "" : ", ") + exact_text(range.from) + " to " + exact_text(range.to);
-  return text;
+  return joined(operating.ranges, ", ", [](const OperatingRange& range) {
+    return exact_text(range.from) + " to " + exact_text(range.to);
+  });
 }
 
 std::string margin_text(const OperatingRanges& operating) {

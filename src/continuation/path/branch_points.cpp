@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/path/stiffness_determinant.hpp"
+#include "core/bisection.hpp"
 #include "core/positive_or_one.hpp"
 
 namespace eigentrail {
@@ -82,13 +83,10 @@ std::optional<double> expect_branch_point(const PathProblem& problem, const Path
 /// Place on a bridge where dp/dsigma vanishes, by bisection between its ends.
 double turning_point(const Bridge& bridge, int traced, const SidePoint& left, const SidePoint& right) {
   constexpr int halvings = 80;  // more than the 53 bits of a double
-  double a = left.coordinate;
-  double b = right.coordinate;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (a + b);
-    (bridge.path(middle, 1).parameters(traced, 1) * left.heading > 0.0 ? a : b) = middle;
-  }
-  return a;
+  return bisected(
+             left.coordinate, right.coordinate, halvings,
+             [&](double sigma) { return bridge.path(sigma, 1).parameters(traced, 1) * left.heading > 0.0; })
+      .last;
 }
 
 /// A root of a test function of the points on a bridge, by the secant method from `guess` and `other`. The

@@ -32,14 +32,12 @@ struct Direction {
 
   /// In scaled coordinates.
   double length(const PathScales& scales) const {
-    const double of_u = u.size() > 0 ? u.cwiseQuotient(scales.u).norm() : 0.0;
-    return std::hypot(std::hypot(x.norm() / scales.x, of_u), p / scales.p);
+    return std::hypot(std::hypot(x.norm() / scales.x, u.cwiseQuotient(scales.u).norm()), p / scales.p);
   }
 };
 
-/// The coefficients of h^k of a path.
-Direction term(const Path& path, int traced, const PathScales& scales, Eigen::Index k) {
-  const Eigen::Index unknowns = scales.u.size();
+/// The coefficients of h^k of a path, with so many trimmed parameters.
+Direction term(const Path& path, int traced, Eigen::Index unknowns, Eigen::Index k) {
   const bool has = k < path.x.cols();
   return {has ? Vector(path.x.col(k)) : Vector(Vector::Zero(path.x.rows())),
           has ? Vector(path.lambda.col(k).tail(unknowns)) : Vector(Vector::Zero(unknowns)),
@@ -50,10 +48,8 @@ Direction term(const Path& path, int traced, const PathScales& scales, Eigen::In
 Vector coordinate_series(const Path& path, const PathPlane& plane, int traced, Eigen::Index count) {
   Vector sigma = Vector::Zero(count);
   for (Eigen::Index k = 1; k < count; ++k) {
-    sigma[k] = plane.p * coefficient(path.parameters, traced, k);
-    if (k >= path.x.cols()) continue;
-    sigma[k] += plane.x.dot(path.x.col(k));
-    if (plane.u.size() > 0) sigma[k] += plane.u.dot(path.lambda.col(k).tail(plane.u.size()));
+    const Direction c = term(path, traced, plane.u.size(), k);
+    sigma[k] = plane.p * c.p + plane.x.dot(c.x) + plane.u.dot(c.u);
   }
   return sigma;
 }
@@ -61,7 +57,7 @@ Vector coordinate_series(const Path& path, const PathPlane& plane, int traced, E
 }  // namespace
 
 PathPlane plane_along(const Path& path, int traced, const PathScales& scales, double direction) {
-  const Direction tangent = term(path, traced, scales, 1);
+  const Direction tangent = term(path, traced, scales.u.size(), 1);
   const double norm = direction * tangent.length(scales);
   return {tangent.x / (scales.x * scales.x * norm), tangent.p / (scales.p * scales.p * norm),
           tangent.u.cwiseQuotient(scales.u).cwiseQuotient(scales.u) / norm};
@@ -98,7 +94,7 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
   const double sigma = std::abs(h / coefficient(turned.parameters, traced, 1));
   const bool rests = scales.u.size() > 0 && path.x.col(1).norm() * std::abs(h) <= no_path_motion * scales.x;
   const auto tail = [&](const Path& series, double step) {
-    const Direction end = term(series, traced, scales, last);
+    const Direction end = term(series, traced, scales.u.size(), last);
     const double x = rests ? Direction{Vector(), end.u}.length(scales) : end.x.norm() / scales.x;
     const double p = std::abs(end.p) / scales.p;
     return std::max(x, p) * std::pow(step, static_cast<double>(last));
@@ -108,11 +104,11 @@ bool falls_faster(const Path& turned, const Path& path, int traced, const PathSc
 }
 
 double slant(const PathPlane& plane, const Path& path, int traced, const PathScales& scales) {
-  const Direction tangent = term(path, traced, scales, 1);
-  const double of_u = plane.u.size() > 0 ? plane.u.cwiseProduct(scales.u).norm() : 0.0;
-  const double normal = std::hypot(std::hypot(plane.x.norm() * scales.x, of_u), plane.p * scales.p);
-  const double along = plane.x.dot(tangent.x) + plane.p * tangent.p;
-  return (plane.u.size() > 0 ? along + plane.u.dot(tangent.u) : along) / (tangent.length(scales) * normal);
+  const Direction tangent = term(path, traced, scales.u.size(), 1);
+  const double normal = std::hypot(
+      std::hypot(plane.x.norm() * scales.x, plane.u.cwiseProduct(scales.u).norm()), plane.p * scales.p);
+  const double along = plane.x.dot(tangent.x) + plane.p * tangent.p + plane.u.dot(tangent.u);
+  return along / (tangent.length(scales) * normal);
 }
 
 }  // namespace eigentrail

@@ -97,49 +97,41 @@ bool falls_apart_here(const PathProblem& problem, const IndependentParts& parts,
   return std::max({departure(here.M), departure(here.C), departure(here.K)}) <= rounding;
 }
 
+void set_no_equilibrium(PathPoint& point, std::string message) {
+  point.status = PointStatus::no_equilibrium;
+  point.message = std::move(message);
+}
+
 /// Tangent basis and reduced pencil at the point's equilibrium. Sets the status if there is no equilibrium.
 void reduce_point(const PathProblem& problem, const Matrix& previous_basis, PathPoint& point,
                   RunCounts& counts) {
-  if (point.equilibrium.status != SteadyStatus::converged) {
-    point.status = PointStatus::no_equilibrium;
-    point.message = point.equilibrium.report.message;
-    return;
-  }
+  const Equilibrium& at = point.equilibrium;
+  if (at.status != SteadyStatus::converged) return set_no_equilibrium(point, at.report.message);
   const StageTimer timer(counts.reduction_seconds);
-  point.message = undetermined_stiffness(problem.model, parameters_at(problem, point.p), point.equilibrium,
-                                         counts.evaluations);
-  if (!point.message.empty()) {
-    point.status = PointStatus::no_equilibrium;
-    return;
-  }
-  if (problem.parts) {
-    auto parts = turned(problem.parts, point.equilibrium.kkt.constraints());
-    if (!parts || !falls_apart_here(problem, *parts, point)) {
-      point.status = PointStatus::no_equilibrium;
-      point.message = "the equations do not fall apart here as they do at other places of the range";
-      return;
-    }
-    point.basis = basis_of(std::move(parts));
-    point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
-    return;
-  }
+  std::string fault =
+      undetermined_stiffness(problem.model, parameters_at(problem, point.p), at, counts.evaluations);
+  if (!fault.empty()) return set_no_equilibrium(point, std::move(fault));
+  const ConstraintFactorization& constraints = at.kkt.constraints();
   const Projection* projection = problem.model.projection();
-  if (projection != nullptr && projection->motions) {
-    auto basis = restricted_basis(*projection->motions, point.equilibrium.linearization.A[0],
-                                  point.equilibrium.kkt.constraints());
-    if (!basis) {
-      point.status = PointStatus::no_equilibrium;
-      point.message =
+  if (problem.parts) {
+    auto parts = turned(problem.parts, constraints);
+    if (!parts || !falls_apart_here(problem, *parts, point))
+      return set_no_equilibrium(
+          point, "the equations do not fall apart here as they do at other places of the range");
+    point.basis = basis_of(std::move(parts));
+  } else if (projection != nullptr && projection->motions) {
+    auto basis = restricted_basis(*projection->motions, at.linearization.A[0], constraints);
+    if (!basis)
+      return set_no_equilibrium(
+          point,
           "bodies have turned by about 90 degrees since the reference of the projected model; trace "
-          "the range in two parts";
-      return;
-    }
+          "the range in two parts");
     point.basis = std::move(*basis);
   } else {
-    point.basis = tangent_basis(point.equilibrium.kkt.constraints(), previous_basis);
+    point.basis = tangent_basis(constraints, previous_basis);
   }
   if (problem.basis == BasisChoice::random) randomize_basis(point.basis, std::hash<double>()(point.p));
-  point.pencil = reduce(point.equilibrium.linearization, point.basis, 0);
+  point.pencil = reduce(at.linearization, point.basis, 0);
 }
 
 bool is_finite(const Track& track) {
@@ -208,8 +200,7 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
                                                  previous_basis, counts, prediction.plane);
   if (point.status != PointStatus::computed) return point;
   if (point.pencil.size() != previous_basis.cols()) {
-    point.status = PointStatus::no_equilibrium;
-    point.message = "the number of independent constraints changed";
+    set_no_equilibrium(point, "the number of independent constraints changed");
     return point;
   }
   correct_modes(problem, prediction, point, counts);
@@ -218,11 +209,16 @@ PathPoint compute_point(const PathProblem& problem, const Prediction& prediction
 
 namespace {
 
-/// Linearization, basis, pencil and tracks of a node as series, from the series of its equilibrium. Empty if
-/// they are not finite.
-std::optional<PathNode> differentiate_along(const PathProblem& problem, const PathPoint& point, PathNode node,
-                                            RunCounts& counts) {
+/// The node of a point with all its series, from that of its equilibrium: `differentiate(order, path)` sets
+/// the path, and returns a fault if that fails. Empty if a series is not finite.
+template <class Differentiate>
+std::optional<PathNode> differentiated(const PathProblem& problem, const PathPoint& point, RunCounts& counts,
+                                       const Differentiate& differentiate) {
+  size_counters(problem, counts);
+  const StageTimer timer(counts.differentiation_seconds);
   const int order = problem.order + 1;
+  PathNode node;
+  if (differentiate(order, node.path)) return std::nullopt;
   node.p = point.p;
   if (problem.model.linearize(node.path, order, node.linearization, counts.evaluations)) return std::nullopt;
   node.basis = point.basis;
@@ -237,20 +233,16 @@ std::optional<PathNode> differentiate_along(const PathProblem& problem, const Pa
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             RunCounts& counts) {
-  size_counters(problem, counts);
-  const StageTimer timer(counts.differentiation_seconds);
-  PathNode node;
-  if (equilibrium_series(problem, point, problem.order + 1, node.path, counts)) return std::nullopt;
-  return differentiate_along(problem, point, std::move(node), counts);
+  return differentiated(problem, point, counts, [&](int order, Path& path) {
+    return equilibrium_series(problem, point, order, path, counts);
+  });
 }
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point,
                                             const VectorSeries& parameters, RunCounts& counts) {
-  size_counters(problem, counts);
-  const StageTimer timer(counts.differentiation_seconds);
-  PathNode node;
-  if (series_along(problem, point, parameters, problem.order + 1, node.path, counts)) return std::nullopt;
-  return differentiate_along(problem, point, std::move(node), counts);
+  return differentiated(problem, point, counts, [&](int order, Path& path) {
+    return series_along(problem, point, parameters, order, path, counts);
+  });
 }
 
 std::optional<PathNode> differentiate_point(const PathProblem& problem, const PathPoint& point, int parameter,

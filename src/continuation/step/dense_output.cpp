@@ -56,18 +56,7 @@ ComplexVector HermiteInterpolant::operator()(Complex t) const {
 }
 
 ComplexVector HermiteInterpolant::slope(double t) const {
-  const bool left = t <= 0.5;
-  const ComplexMatrix& values = near_values(left);
-  const double u = left ? t : 1.0 - t;
-  const double du = left ? 1.0 : -1.0;
-  const double bubble = u * (u - 1.0);
-  ComplexVector value = ComplexVector::Zero(size());
-  ComplexVector derivative = value;
-  for (Eigen::Index k = slope_.cols() - 1; k >= 0; --k) {
-    derivative = derivative * bubble + value * (du * (2.0 * u - 1.0)) + slope_.col(k);
-    value = value * bubble + values.col(k) + slope_.col(k) * (du * u);
-  }
-  return derivative;
+  return series(t, 1).col(1);
 }
 
 ComplexMatrix HermiteInterpolant::series(double t0, int order) const {

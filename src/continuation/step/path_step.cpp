@@ -182,7 +182,7 @@ double distinctness(const ComplexVector& functions, const ComplexVector& roots) 
   const ComplexMatrix left = right.inverse();
   const Vector condition = left.rowwise().norm().cwiseProduct(right.colwise().norm().transpose());
   const ComplexVector& s = solver.eigenvalues();
-  double least = std::numeric_limits<double>::infinity();
+  double least = INFINITY;
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < i; ++j)
       least = std::min(least, std::abs(s[i] - s[j]) / std::max(condition[i], condition[j]));
@@ -266,7 +266,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
   if (functions.size() == 1) return functions(to);
   if (!std::isfinite(to)) {
     told_apart = false;
-    return ComplexVector::Constant(roots.size(), std::numeric_limits<double>::quiet_NaN());
+    return ComplexVector::Constant(roots.size(), NAN);
   }
   Differences differences(functions, roots, from);
   ComplexVector current = roots;
@@ -303,7 +303,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
 
 Complex chart_value(Complex s, Chart chart) {
   if (chart == Chart::finite) return s;
-  if (s == 0.0) return {std::numeric_limits<double>::infinity(), 0.0};
+  if (s == 0.0) return {INFINITY, 0.0};
   return std::isfinite(s.real()) && std::isfinite(s.imag()) ? 1.0 / s : Complex(0.0);
 }
 
@@ -329,8 +329,7 @@ ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_lef
 
 ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_left,
                                   const ComplexVector& at_right, double t, std::size_t& work) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  ComplexVector s = ComplexVector::Constant(at_left.size(), Complex(nan, nan));
+  ComplexVector s = ComplexVector::Constant(at_left.size(), Complex(NAN, NAN));
   for (const DenseBlock& block : step.blocks) {
     ComplexVector roots;
     if (block.size() == 1) {

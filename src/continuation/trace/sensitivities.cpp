@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/singular_vectors.hpp"
 #include "eigentrail/continuation/path_point.hpp"
@@ -52,16 +51,15 @@ Complex derivative(const ModeVectors& mode, const ReducedPencil& pencil) {
   const auto along = [](const MatrixSeries& series, Eigen::Index n) -> Matrix {
     return series.size() > 1 ? series[1] : Matrix(Matrix::Zero(n, n));
   };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Index m = mode.slope.rows(), n = pencil.size();
   const Eigen::FullPivLU<ComplexMatrix> slope(mode.slope);
-  if (!(std::abs(slope.determinant()) > multiple * std::pow(mode.magnitude, m))) return {nan, nan};
+  if (!(std::abs(slope.determinant()) > multiple * std::pow(mode.magnitude, m))) return {NAN, NAN};
   const ComplexMatrix change =
       mode.s * mode.s * along(pencil.M, n) + mode.s * along(pencil.C, n) + along(pencil.K, n);
   const ComplexMatrix of_members = -slope.solve(mode.left.adjoint() * change * mode.right);
   const Complex mean = of_members.trace() / static_cast<double>(m);
   const double difference = (of_members - mean * ComplexMatrix::Identity(m, m)).norm();
-  return m > 1 && difference > alike * of_members.norm() ? Complex(nan, nan) : mean;
+  return m > 1 && difference > alike * of_members.norm() ? Complex(NAN, NAN) : mean;
 }
 
 }  // namespace

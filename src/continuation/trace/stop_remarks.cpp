@@ -5,6 +5,7 @@
 
 #include "continuation/events/event_search.hpp"
 #include "continuation/step/step_error.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/core/constraint_factorization.hpp"
 
 namespace eigentrail {
@@ -22,11 +23,8 @@ constexpr double beside_zero = 100.0;
 std::string remark_on_constraints(const PathNode& node) {
   const double angle = ConstraintFactorization(node.linearization.A[0]).independence();
   if (angle > singular_angle) return {};
-  std::ostringstream text;
-  text.precision(2);
-  text << "; the constraints come to depend on each other (least angle " << angle
-       << " rad), as where links of a mechanism lie in one line";
-  return text.str();
+  return "; the constraints come to depend on each other (least angle " + short_text(angle, 2) +
+         " rad), as where links of a mechanism lie in one line";
 }
 
 /// The remark that the reference is too small for an eigenvalue close to zero: tolerance * reference is then
@@ -35,11 +33,8 @@ std::string remark_on_constraints(const PathNode& node) {
 std::string remark_on_zero(const Track& track, double reference) {
   const bool is_beside = track.roots.cwiseAbs().minCoeff() < beside_zero * reference;
   if (track.pair.chart != Chart::finite || !is_beside) return {};
-  std::ostringstream text;
-  text.precision(3);
-  text << "; beside zero rounding exceeds tolerance * reference: give a larger `reference`, now " << reference
-       << " 1/s";
-  return text.str();
+  return "; beside zero rounding exceeds tolerance * reference: give a larger `reference`, now " +
+         short_text(reference, 3) + " 1/s";
 }
 
 /// The modes of a track as "mode 3, 4: ", counted from 1; empty if it has none.

@@ -1,6 +1,7 @@
 #include "continuation/trace/trace_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -100,27 +101,16 @@ std::optional<double> way_to_infinity(const PathProblem& problem, const std::str
 }
 
 void count(const Verdict& verdict, Rejections& rejections) {
-  switch (verdict.kind) {
-    case Verdict::Kind::no_equilibrium:
-      ++rejections.no_equilibrium;
-      break;
-    case Verdict::Kind::mode_lost:
-      ++rejections.mode_lost;
-      break;
-    case Verdict::Kind::inaccurate:
-      ++rejections.inaccurate;
-      break;
-    case Verdict::Kind::mismatch:
-      ++rejections.mismatch;
-      break;
-    case Verdict::Kind::merged:
-      ++rejections.merged;
-      break;
-    case Verdict::Kind::uncertified:
-      ++rejections.uncertified;
-      break;
-    case Verdict::Kind::accepted:
-      break;
+  using Kind = Verdict::Kind;
+  constexpr std::array<std::pair<Kind, int Rejections::*>, 6> counters{
+      {{Kind::no_equilibrium, &Rejections::no_equilibrium},
+       {Kind::mode_lost, &Rejections::mode_lost},
+       {Kind::inaccurate, &Rejections::inaccurate},
+       {Kind::mismatch, &Rejections::mismatch},
+       {Kind::merged, &Rejections::merged},
+       {Kind::uncertified, &Rejections::uncertified}}};
+  for (const auto& [kind, counter] : counters) {
+    if (kind == verdict.kind) ++(rejections.*counter);
   }
 }
 

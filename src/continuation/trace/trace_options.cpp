@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
-#include "continuation/trace/mode_choice_option.hpp"
-#include "continuation/trace/mode_names_option.hpp"
+#include "continuation/trace/mode_options.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
@@ -96,20 +95,16 @@ class OptionReader {
     }
   }
 
-  /// A whole number; empty for the word that stands for its absence.
+  /// A whole number; empty for the word that stands for its absence. Reports other words that are no
+  /// parameters.
   std::optional<int> whole_number_or(const char* key, const std::string& word_for_absent) {
-    if (is_text(key) && table_.text(key) == word_for_absent) return std::nullopt;
-    reject_other_word(key, word_for_absent);
-    return whole_number(key);
-  }
-
-  /// Reports a word that is neither a parameter nor the word for an absent number.
-  void reject_other_word(const char* key, const std::string& word_for_absent) {
-    if (!is_text(key)) return;
+    if (!is_text(key)) return whole_number(key);
     const std::string text = table_.text(key);
+    if (text == word_for_absent) return std::nullopt;
     const bool word = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c); });
     if (word && !scene_.parameters.index(text))
       table_.fail(key, "expected a whole number or \"" + word_for_absent + "\", found \"" + text + "\"");
+    return whole_number(key);
   }
 
   /// A plain number is in the parameter's unit, a text may have a unit of its own ("100 Hz"); an expression
@@ -185,9 +180,7 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   for (const auto& option : overrides) {
     const std::string& text = option.second;
     Value value{text, {}};
-    double number = 0.0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) value.data = number;
+    if (const auto number = parsed_number<double>(text)) value.data = *number;
     if (text == "true" || text == "false") value.data = text == "true";
     const bool is_choice = option.first == "modes" && text.find('=') != std::string::npos;
     if (is_choice) value.data = table_of(option.first, text);
@@ -349,13 +342,10 @@ OptionTexts describe_options(const TraceOptions& options) {
     } else if constexpr (std::is_same_v<T, bool>) {
       texts.emplace_back(key, value ? "true" : "false");
     } else if constexpr (std::is_same_v<T, std::vector<int>>) {
-      std::string list;
-      for (const int item : value) list += (list.empty() ? "" : ", ") + std::to_string(item);
-      texts.emplace_back(key, list.empty() ? "auto" : list);
+      texts.emplace_back(
+          key, value.empty() ? "auto" : joined(value, ", ", [](int item) { return std::to_string(item); }));
     } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-      std::string list;
-      for (const std::string& item : value) list += (list.empty() ? "" : ", ") + item;
-      texts.emplace_back(key, list.empty() ? "none" : list);
+      texts.emplace_back(key, value.empty() ? "none" : joined(value));
     } else if constexpr (std::is_same_v<T, std::optional<int>>) {
       texts.emplace_back(key, value ? std::to_string(*value) : "auto");
     } else if constexpr (std::is_same_v<T, ModeChoice>) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "continuation/tracks/members.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/continuation/path_step.hpp"
@@ -142,8 +143,7 @@ namespace {
 ComplexVector vector_of(const Track& track, Eigen::Index root) {
   if (track.size() == 1) return track.pair.Z.col(0).normalized();
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(track.pair.Lambda);
-  Eigen::Index nearest = 0;
-  (solver.eigenvalues().array() - track.roots[root]).abs().minCoeff(&nearest);
+  const Eigen::Index nearest = nearest_root(solver.eigenvalues(), track.roots[root]);
   return (track.pair.Z * solver.eigenvectors().col(nearest)).normalized();
 }
 
@@ -200,8 +200,7 @@ void end_conjugates_within(Track& track, double reference, double merged_distanc
     int& below = track.modes[static_cast<std::size_t>(i)];
     const Complex root = track.roots[i];
     if (below < 0 || -2.0 * root.imag() <= merged_distance * std::max(std::abs(root), reference)) continue;
-    Eigen::Index other = 0;
-    (track.roots.array() - std::conj(root)).abs().minCoeff(&other);
+    const Eigen::Index other = conjugate_of(track.roots, i);
     int& above = track.modes[static_cast<std::size_t>(other)];
     if (above >= 0) pairs.push_back({std::min(above, below), std::max(above, below)});
     above = above >= 0 ? std::min(above, below) : below;

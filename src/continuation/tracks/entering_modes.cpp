@@ -122,7 +122,7 @@ int number_growing_guards(const PathProblem& problem, const PathNode& right, Pat
   for (std::size_t t = 0; t < right.tracks.size(); ++t) {
     const Track& end = right.tracks[t];
     std::vector<int>& modes = left.tracks[t].modes;
-    if (std::find(modes.begin(), modes.end(), Track::guard) == modes.end()) continue;
+    if (!contains(modes, Track::guard)) continue;
     const Vector rounding = rounding_of_roots(end, problem.thresholds.rounding);
     for (Eigen::Index i = 0; i < end.size(); ++i) {
       int& mode = modes[static_cast<std::size_t>(i)];

@@ -13,7 +13,7 @@ namespace eigentrail {
 std::vector<int> sorted_modes(const std::vector<int>& modes) {
   std::vector<int> result;
   for (const int mode : modes) {
-    if (mode >= 0 && std::find(result.begin(), result.end(), mode) == result.end()) result.push_back(mode);
+    if (mode >= 0 && !contains(result, mode)) result.push_back(mode);
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -23,6 +23,34 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> result;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
   return result;
+}
+
+bool contains(const std::vector<int>& list, int entry) {
+  return std::find(list.begin(), list.end(), entry) != list.end();
+}
+
+std::vector<int> other_members(Eigen::Index size, const std::vector<int>& members) {
+  std::vector<int> others;
+  for (int i = 0; i < static_cast<int>(size); ++i) {
+    if (!contains(members, i)) others.push_back(i);
+  }
+  return others;
+}
+
+double diameter(const ComplexVector& roots, const std::vector<int>& members) {
+  double largest = 0.0;
+  for (const int i : members) {
+    for (const int j : members) largest = std::max(largest, std::abs(roots[i] - roots[j]));
+  }
+  return largest;
+}
+
+double distance_from_others(const ComplexVector& roots, const std::vector<int>& members) {
+  double distance = INFINITY;
+  for (const int i : other_members(roots.size(), members)) {
+    for (const int j : members) distance = std::min(distance, std::abs(roots[i] - roots[j]));
+  }
+  return distance;
 }
 
 std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members) {

@@ -14,6 +14,18 @@ std::vector<int> sorted_modes(const std::vector<int>& modes);
 /// Union of two ascending lists, ascending.
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b);
 
+/// Whether a list of members or of modes has an entry.
+bool contains(const std::vector<int>& list, int entry);
+
+/// The indices below `size` that are not among the members, ascending.
+std::vector<int> other_members(Eigen::Index size, const std::vector<int>& members);
+
+/// Largest distance of two members of a block from each other.
+double diameter(const ComplexVector& roots, const std::vector<int>& members);
+
+/// Least distance of members of a block from its other eigenvalues; infinite when there are none.
+double distance_from_others(const ComplexVector& roots, const std::vector<int>& members);
+
 /// The eigenvalues of a track with these indices.
 std::vector<Complex> roots_of(const Track& track, const std::vector<int>& members);
 

@@ -67,8 +67,7 @@ int parent_of(const Track& track, const ComplexVector& roots, Eigen::Index root,
     if (j == root || other < 0 || roots[j].imag() != 0.0) continue;
     const double distance = std::abs(roots[j] - roots[root]);
     const auto known = numbers.partners.find(other);
-    const bool taken = known != numbers.partners.end() &&
-                       std::find(track.modes.begin(), track.modes.end(), known->second) != track.modes.end();
+    const bool taken = known != numbers.partners.end() && contains(track.modes, known->second);
     if (taken || distance >= nearest) continue;
     nearest = distance;
     parent = other;
@@ -81,7 +80,7 @@ int parent_of(const Track& track, const ComplexVector& roots, Eigen::Index root,
 int partner_of(int mode, const std::vector<int>& in_use, ModeNumbers& numbers) {
   const auto found = numbers.partners.find(mode);
   if (found != numbers.partners.end()) {
-    if (std::find(in_use.begin(), in_use.end(), found->second) == in_use.end()) return found->second;
+    if (!contains(in_use, found->second)) return found->second;
     forget_partner(mode, numbers);
   }
   const int born = numbers.count++;

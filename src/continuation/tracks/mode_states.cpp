@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/tracks/members.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -26,24 +25,18 @@ ComplexMatrix vectors_of(const Track& track) {
   const ComplexVector values = in_order_of(track.roots, solver.eigenvalues());
   ComplexMatrix ordered(track.size(), track.size());
   for (Eigen::Index i = 0; i < track.size(); ++i) {
-    Eigen::Index at = 0;
-    (solver.eigenvalues().array() - values[i]).abs().minCoeff(&at);
-    ordered.col(i) = solver.eigenvectors().col(at);
+    ordered.col(i) = solver.eigenvectors().col(nearest_root(solver.eigenvalues(), values[i]));
   }
   return ordered;
 }
 
-/// Derivative of a root of a track along the path, in its chart. NaN where another root is too close.
-Complex slope_of(const Track& track, Complex root, Eigen::Index index) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// Derivative of root i of a track along the path, in its chart. NaN where another root is too close.
+Complex slope_of(const Track& track, Eigen::Index i) {
   const double scale = std::max(track.pair.Lambda.norm(), least_scale);
-  double nearest = INFINITY;
-  for (Eigen::Index j = 0; j < track.size(); ++j) {
-    if (j != index) nearest = std::min(nearest, std::abs(track.roots[j] - root));
-  }
-  if (!(nearest > coinciding_roots * scale)) return {nan, nan};
-  const ComplexVector series = root_series(track.functions, root);
-  return series.size() > 1 ? series[1] : Complex(nan, nan);
+  const double nearest = distance_from_others(track.roots, {static_cast<int>(i)});
+  if (!(nearest > coinciding_roots * scale)) return {NAN, NAN};
+  const ComplexVector series = root_series(track.functions, track.roots[i]);
+  return series.size() > 1 ? series[1] : Complex(NAN, NAN);
 }
 
 /// The mode of root i of a track; `vectors` as from vectors_of. `rounding`: of the root at its place,
@@ -53,7 +46,7 @@ ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMa
   ModeState state;
   state.mode = mode;
   const Complex root = track.roots[i];
-  const Complex derivative = slope_of(track, root, i), slope = derivative / speed;
+  const Complex derivative = slope_of(track, i), slope = derivative / speed;
   if (along > 0.0 && std::isfinite(std::abs(derivative))) rounding += along * std::abs(derivative);
   state.s = chart_value(root, track.pair.chart);
   state.slope = track.pair.chart == Chart::finite ? slope : -slope * state.s * state.s;

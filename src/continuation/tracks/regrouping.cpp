@@ -306,8 +306,7 @@ std::optional<Track> track_of_members(const PathProblem& problem, const PathNode
   if (block.departure)
     track->departure = Track::Departure{block.departure->distance, block.departure->roots(members)};
   for (std::size_t i = 0; i < members.size(); ++i) {
-    if (std::find(block.met.begin(), block.met.end(), members[i]) != block.met.end())
-      track->met.push_back(static_cast<int>(i));
+    if (contains(block.met, members[i])) track->met.push_back(static_cast<int>(i));
   }
   return track;
 }
@@ -333,29 +332,15 @@ std::vector<Track> parts_of(const PathProblem& problem, const PathNode& node, co
 std::optional<Track> separate(const PathProblem& problem, const PathNode& node, const Track& track,
                               const std::vector<int>& members, RunCounts& counts) {
   if (static_cast<Eigen::Index>(members.size()) == track.size()) return track;
-  double inside = 0.0;
-  double outside = INFINITY;
-  for (const int i : members) {
-    for (int j = 0; j < static_cast<int>(track.size()); ++j) {
-      const bool member = std::find(members.begin(), members.end(), j) != members.end();
-      const double distance = std::abs(track.roots[j] - track.roots[i]);
-      if (member) {
-        inside = std::max(inside, distance);
-      } else {
-        outside = std::min(outside, distance);
-      }
-    }
-  }
-  if (!(outside > isolated * inside)) return std::nullopt;
+  const bool is_isolated =
+      distance_from_others(track.roots, members) > isolated * diameter(track.roots, members);
+  if (!is_isolated) return std::nullopt;
   return track_of_members(problem, node, track, members, counts);
 }
 
 std::optional<Track> without(const PathProblem& problem, const PathNode& node, const Track& track,
                              const std::vector<int>& members, RunCounts& counts) {
-  std::vector<int> others;
-  for (int i = 0; i < static_cast<int>(track.size()); ++i) {
-    if (std::find(members.begin(), members.end(), i) == members.end()) others.push_back(i);
-  }
+  const std::vector<int> others = other_members(track.size(), members);
   if (!are_told_apart(track, {members, others}, problem.reference(track.pair.chart))) return std::nullopt;
   return track_of_members(problem, node, track, others, counts);
 }

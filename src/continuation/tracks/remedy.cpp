@@ -85,26 +85,23 @@ Remedy find_remedy(const PathProblem& problem, PathFrame& frame, const JoiningRu
     partners = find_partners(node, track, h, join_reach);
     if (partners.size() > 1) partners.resize(1);
   }
-  remedy.tried_to_join = !partners.empty();
-  if (remedy.tried_to_join) {
-    if (join(problem, node, track, partners, counts)) ++remedy.changes.joined;
+  const auto note = [&remedy](bool joined) {
+    remedy.tried_to_join = true;
+    if (joined) ++remedy.changes.joined;
+  };
+  if (!partners.empty()) {
+    note(join(problem, node, track, partners, counts));
     return remedy;
   }
   const bool uncertified = verdict.kind == Verdict::Kind::uncertified;
-  if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : rules.has_shrunk(h))) {
-    remedy.tried_to_join = true;
-    if (join_unfollowed(problem, node, track, h, rules.parting_reach, counts)) ++remedy.changes.joined;
-  }
+  if (!rules.follows_all && (uncertified ? shorter == Shorter::in_vain : rules.has_shrunk(h)))
+    note(join_unfollowed(problem, node, track, h, rules.parting_reach, counts));
   if (!remedy.helps() && are_hidden_by_rounding(problem, rules, verdict, h, step, node.tracks[track])) {
-    remedy.tried_to_join = true;
     const std::optional<Partner> nearest = nearest_to_join(rules, node, track);
-    if (nearest && join_and_keep(problem, node, track, *nearest, counts, largest_where_hidden))
-      ++remedy.changes.joined;
+    note(nearest && join_and_keep(problem, node, track, *nearest, counts, largest_where_hidden));
   }
-  if (!remedy.helps() && uncertified && shorter == Shorter::in_vain) {
-    remedy.tried_to_join = true;
-    if (join_unproven(problem, rules, node, track, counts)) ++remedy.changes.joined;
-  }
+  if (!remedy.helps() && uncertified && shorter == Shorter::in_vain)
+    note(join_unproven(problem, rules, node, track, counts));
   // What was kept together cannot be followed together: the next point may take it apart.
   if (!remedy.helps()) node.tracks[track].inseparable = 0.0;
   return remedy;

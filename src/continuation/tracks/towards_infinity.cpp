@@ -25,15 +25,6 @@ std::optional<double> distance_of_infinity(const ComplexVector& mu, const Infini
   return distance.real();
 }
 
-/// Whether all modes of a track are among the members; conjugates and guard modes do not count.
-bool are_all(const Track& track, const std::vector<int>& members) {
-  for (int i = 0; i < static_cast<int>(track.size()); ++i) {
-    const bool is_member = std::find(members.begin(), members.end(), i) != members.end();
-    if (!is_member && track.modes[static_cast<std::size_t>(i)] >= 0) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<RunToInfinity> runs_to_infinity(const PathNode& node, double direction,
@@ -66,17 +57,17 @@ EndedAtInfinity end_at_infinity(const PathProblem& problem, const std::vector<Ru
       behind = std::max(behind, run.distance * (1.0 + well_behind * share * share));
     }
     if (members.empty()) continue;
-    const bool whole = are_all(node.tracks[track], members);
+    std::vector<int>& modes = node.tracks[track].modes;
+    const std::vector<int> beside = other_members(node.tracks[track].size(), members);
+    // Conjugates and guard modes do not go on by themselves.
+    const bool some_go_on = std::any_of(beside.begin(), beside.end(),
+                                        [&](int j) { return modes[static_cast<std::size_t>(j)] >= 0; });
     std::optional<Track> others;
-    if (!whole) {
+    if (some_go_on) {
       others = without(problem, node, node.tracks[track], members, counts);
       if (!others) continue;
     }
-    std::vector<int>& modes = node.tracks[track].modes;
-    for (int j = 0; j < static_cast<int>(modes.size()); ++j) {
-      const bool is_member = std::find(members.begin(), members.end(), j) != members.end();
-      if (!is_member) modes[static_cast<std::size_t>(j)] = Track::no_mode;
-    }
+    for (const int j : beside) modes[static_cast<std::size_t>(j)] = Track::no_mode;
     std::copy_if(modes.begin(), modes.end(), std::back_inserter(ended.modes),
                  [](int mode) { return mode >= 0; });
     std::vector<EndedTrack> not_looked_for;

@@ -1,4 +1,4 @@
-#include "continuation/trace/mode_choice_option.hpp"
+#include "continuation/trace/mode_options.hpp"
 
 #include <cmath>
 
@@ -21,13 +21,45 @@ std::vector<double> frequencies(TableReader& table, const std::string& key) {
   return values;
 }
 
-}  // namespace
-
+/// The number of a key of a table, which may not depend on parameters.
 double constant_number(TableReader& table, const std::string& key) {
   const Expression expression = table.expression(key);
   if (!expression.is_constant()) table.fail(key, "expected a number without parameters");
   return expression.evaluate(std::span<const double>());
 }
+
+GivenName read_name(TableReader& names, const std::string& name) {
+  GivenName given{name};
+  if (name.empty()) names.fail(name, "is an empty name");
+  if (names.is_table(name)) {
+    TableReader shape = names.table(name);
+    bool moves = false;
+    for (const std::string& coordinate : shape.keys()) {
+      given.shape.emplace_back(coordinate, constant_number(shape, coordinate));
+      moves = moves || given.shape.back().second != 0.0;
+    }
+    if (!moves)
+      names.fail(name, "expected coordinates and amounts, such as { \"node 3: x\" = 1 }; all are zero");
+    return given;
+  }
+  const std::vector<std::string> texts = names.texts(name);
+  const std::string text = texts.size() == 1 ? texts.front() : "";
+  if (text.empty())
+    names.fail(name,
+               "expected a frequency (\"1.2 Hz\"), a part of a mode's own name (\"blade lag\"), or "
+               "coordinates and amounts");
+  const auto frequency = angular_frequency(text);
+  if (!frequency) {
+    given.moves = text;
+  } else if (*frequency < 0.0) {
+    names.fail(name, "expected a frequency of at least 0, found " + text);
+  } else {
+    given.frequency = *frequency;
+  }
+  return given;
+}
+
+}  // namespace
 
 ModeChoice read_mode_choice(TableReader table) {
   ModeChoice choice;
@@ -58,6 +90,25 @@ ModeChoice read_mode_choice(TableReader table) {
   }
   table.finish();
   return choice;
+}
+
+std::vector<GivenName> read_mode_names(const Scene& scene, std::set<int>& used) {
+  const auto found = tables(scene, "modes");
+  if (found.empty()) return {};
+  if (found.size() > 1)
+    throw scene_error(scene, found[1]->where, "[modes]: a scene has one of these at most");
+  TableReader table(scene, *found.front(), "[modes]", used);
+  std::vector<GivenName> given;
+  if (table.has("names")) {
+    if (!table.is_table("names"))
+      table.fail("names",
+                 "expected names and what they stand for: { surge = \"0.01 Hz\", lag = \"blade lag\" }");
+    TableReader names = table.table("names");
+    for (const std::string& name : names.keys()) given.push_back(read_name(names, name));
+    names.finish();
+  }
+  table.finish();
+  return given;
 }
 
 }  // namespace eigentrail
