@@ -18,12 +18,20 @@ double margin_of_others(const RecordedPath& path, const AxisCut& cut) {
   return -fastest;
 }
 
-/// The end of a range at `cut`. `nearest`: the sample of the range next to this end.
-RangeEnd range_end(const RecordedPath& path, Stability kind, const AxisCut& cut, const AxisSample& nearest) {
+enum class Side { begin, end };
+
+/// The begin or end of a range at `cut`. `nearest`: the sample of the range next to it. Where a growing mode
+/// ends at infinity, or comes from there, nothing is known on that step, and the range stays off it.
+RangeEnd range_end(const RecordedPath& path, Stability kind, Side side, const AxisCut& cut,
+                   const AxisSample& nearest) {
   RangeEnd end{cut.p, cut.cause};
   if (cut.on_axis) {
     end.mode = cut.modes.empty() ? nearest.critical : cut.modes.front();
-    if (cut.cause == "infinity") end.margin = margin_of_others(path, cut);
+    if (cut.cause == "infinity") {
+      end.margin = margin_of_others(path, cut);
+      if (!std::isfinite(path.eigenvalues_at(nearest.at)[end.mode].real()))
+        end.p = path.p[nearest.at.step + (side == Side::begin ? 1 : 0)];
+    }
   } else if (kind == Stability::stable) {
     end.margin = nearest.margin;
     end.mode = nearest.critical;
@@ -36,8 +44,8 @@ StableRange join(const RecordedPath& path, const AxisStretch* first, const AxisS
   StableRange range;
   range.kind = first->stability;
   range.whole = std::all_of(first, last + 1, [](const AxisStretch& stretch) { return stretch.whole; });
-  range.from = range_end(path, range.kind, first->from, first->samples.front());
-  range.to = range_end(path, range.kind, last->to, last->samples.back());
+  range.from = range_end(path, range.kind, Side::begin, first->from, first->samples.front());
+  range.to = range_end(path, range.kind, Side::end, last->to, last->samples.back());
   if (range.kind == Stability::marginal) {
     range.largest_at = range.from.p;
     return range;
