@@ -50,9 +50,8 @@ void set_start_of_trace(Scene& scene, const std::string& name) {
 template <class T>
 const T& as(const TableReader& reader, const Value& value, const std::string& key,
             const std::string& expected) {
-  const T* found = std::get_if<T>(&value.data);
-  if (found == nullptr) reader.fail(key, "expected " + expected + ", found " + value.kind());
-  return *found;
+  if (const T* found = std::get_if<T>(&value.data)) return *found;
+  reader.fail(key, "expected " + expected + ", found " + value.kind());
 }
 
 /// The items of a list that is not too long, or a single value, each as what `make` makes of it.
