@@ -48,7 +48,8 @@ std::string damping_remark(const EventFacts& facts) {
 }
 
 std::string resonance_remark(const EventFacts& facts) {
-  return "critical speed " + rounded(facts.value) + "x" + turns(facts, ", outgrows it", ", falls behind it");
+  return "critical speed " + rounded(facts.value) + "x" +
+         turns(facts, ", above it at higher values", ", below it at higher values");
 }
 
 std::string extremum_remark(const EventFacts& facts) {
