@@ -16,7 +16,7 @@ std::vector<std::string> numbered_modes(std::size_t first, std::size_t end) {
   return names;
 }
 
-void create_own_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes) {
+void create_trace_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes) {
   const ModelDescription& description = model.description();
   const auto create = [&file](const char* name, const char* long_name, const auto& labels,
                               bool growing = false) {
@@ -93,7 +93,7 @@ void write_projection(Hdf5Writer& file, const Projection& projection) {
 
 void create_dimensions(Hdf5Writer& file, const Model& model, int order, std::size_t modes,
                        const std::vector<std::string>& motions) {
-  create_own_dimensions(file, model, order, modes);
+  create_trace_dimensions(file, model, order, modes);
   write_shafts(file, model.description());
   if (const Projection* projection = model.projection()) write_projection(file, *projection);
   if (!motions.empty()) write_dimension(file, {"motion", "1", "motion of a mass"}, motions);
