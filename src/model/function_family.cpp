@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/texts.hpp"
 #include "core/transposition.hpp"
@@ -328,16 +329,6 @@ std::vector<double> FunctionFamily::landings(int) const {
   return places;
 }
 
-CoefficientMatrices FunctionFamily::coefficient_matrices(const Vector&, int) const {
-  CoefficientMatrices all;
-  for (const FamilyPiece& piece : pieces_) {
-    all.M.insert(all.M.end(), piece.M.begin(), piece.M.end());
-    all.C.insert(all.C.end(), piece.C.begin(), piece.C.end());
-    all.K.insert(all.K.end(), piece.K.begin(), piece.K.end());
-  }
-  return all;
-}
-
 /// The piece of a value of the parameter; where two meet, the one ahead. Null beside the range.
 const FamilyPiece* FunctionFamily::piece_at(double p, double slope) const {
   const double beside = at_the_ends * (pieces_.back().to - pieces_.front().from);
@@ -364,7 +355,27 @@ auto chebyshev_sum(const std::vector<Matrix>& coefficients, const Series<Real, Q
   return sum.take();
 }
 
+/// The values at the Chebyshev points. Common structure is exact to rounding in them, but not in the last
+/// coefficients, which are little more than rounding themselves.
+void append_values(const std::vector<Matrix>& coefficients, std::vector<Matrix>& values) {
+  const auto last = static_cast<double>(coefficients.size() - 1);
+  for (std::size_t j = 0; j < coefficients.size(); ++j) {
+    const Series<double, 0> x(last > 0.0 ? std::cos(std::numbers::pi * static_cast<double>(j) / last) : 0.0);
+    values.push_back(chebyshev_sum<double, 0>(coefficients, x, 0).front().dense());
+  }
+}
+
 }  // namespace
+
+CoefficientMatrices FunctionFamily::coefficient_matrices(const Vector&, int) const {
+  CoefficientMatrices all;
+  for (const FamilyPiece& piece : pieces_) {
+    append_values(piece.M, all.M);
+    append_values(piece.C, all.C);
+    append_values(piece.K, all.K);
+  }
+  return all;
+}
 
 template <class Real, int Q>
 EvaluationFault FunctionFamily::evaluate_all(const BasicPath<Real>& path, int order,

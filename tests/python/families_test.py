@@ -149,17 +149,54 @@ class Functions(unittest.TestCase):
     def test_a_matrix_that_is_symmetric_but_for_rounding_cannot_flutter(self):
         # Two equal planes of a shaft in coordinates that mix them: K is symmetric to 1e-16 only.
         n = 6
-        Q = np.linalg.qr(np.random.default_rng(0).standard_normal((2 * n, 2 * n)))[0]
         shaft = 1e4 * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+        for seed in range(6):
+            Q = np.linalg.qr(np.random.default_rng(seed).standard_normal((2 * n, 2 * n)))[0]
 
-        def matrices(p):
-            K = shaft + np.diag([1e3 * (1 + 0.3 * np.sin(p))] + (n - 2) * [0.0] + [3e3 * np.sqrt(1 + p * p)])
-            return dict(M=np.eye(2 * n), K=Q.T @ np.kron(np.eye(2), K) @ Q)
+            def matrices(p):
+                K = shaft + np.diag([1e3 * (1 + 0.3 * np.sin(p))] + (n - 2) * [0.0] + [3e3 * np.sqrt(1 + p * p)])
+                return dict(M=np.eye(2 * n), K=Q.T @ np.kron(np.eye(2), K) @ Q)
 
-        for tolerance in (1e-6, 1e-8):
-            loci = et.trace(et.Family(matrices), p=(0, 3), tolerance=tolerance)
-            self.assertEqual(len(loci.eigentrail.events), 0)
-            self.assertTrue((np.abs(loci.eigenvalue.values.real) <= loci.rounding.values).all())
+            for tolerance in (1e-6, 1e-8):
+                with self.subTest(seed=seed, tolerance=tolerance):
+                    loci = et.trace(et.Family(matrices), p=(0, 3), tolerance=tolerance)
+                    self.assertEqual(len(loci.eigentrail.events), 0)
+                    self.assertTrue((np.abs(loci.eigenvalue.values.real) <= loci.rounding.values).all())
+
+    def test_damping_at_the_level_of_rounding_shows_no_flutter(self):
+        # Two nearly equal planes in coordinates that mix them, damped or hardly: nothing crosses the axis.
+        for seed in (52, 56, 59, 61, 62, 70):
+            rng = np.random.default_rng(seed)
+            n = int(rng.integers(2, 5))
+            W, B0, B1, D = (rng.standard_normal(shape) for shape in ((2 * n, 2 * n), (n, n), (n, n), (2 * n, 2 * n)))
+            unequal, damping = 10.0 ** rng.integers(-13, -7, 2)
+            M, B0, B1, D = W.T @ W, B0 @ B0.T + np.eye(n), B1 @ B1.T, D @ D.T
+            K = [W.T @ (np.kron(np.eye(2), B0) + unequal * D) @ W, W.T @ np.kron(np.eye(2), B1) @ W]
+            with self.subTest(seed=seed, unequal=unequal, damping=damping):
+                loci = et.trace(et.Family(M=M, C=damping * M, K=K), p=(0, 2))
+                self.assertFalse(loci.eigentrail.events.kind.isin(["flutter", "divergence"]).any())
+
+    def test_rigid_motions_stay_at_zero(self):
+        # Free motions in coordinates that mix them with the others: K is singular to rounding only.
+        for seed in range(6):
+            rng = np.random.default_rng(seed)
+            n, free = 5, 1 + seed % 2
+            V = rng.standard_normal((n, n))
+            held = np.diag([0.0] * free + [1.0] * (n - free)) @ V
+            B = [X @ X.T for X in rng.standard_normal((2, n, n))]
+
+            def matrices(p):
+                return dict(M=V.T @ V, K=held.T @ (B[0] + (1 + np.sin(p)) * B[1] + np.eye(n)) @ held)
+
+            with self.subTest(seed=seed):
+                loci = et.trace(et.Family(matrices), p=(0, 2))
+                zero = np.abs(loci.eigenvalue.values).max(axis=0) == 0
+                self.assertEqual((loci.attrs["status"], loci.sizes["mode"], zero.sum()), ("completed", n + free, 2 * free))
+                self.assertEqual(len(loci.eigentrail.events), 0)
+                end = matrices(float(loci.p[-1]))
+                elastic = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(end["M"], end["K"])).real)[free:])
+                np.testing.assert_allclose(np.sort(loci.eigenvalue.values[-1, ~zero].imag), elastic, rtol=1e-6)
+
 
 class Mistakes(unittest.TestCase):
     def test_shapes(self):

@@ -152,8 +152,10 @@ CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int loo
   const bool meets = series.size() < 2 || (!by_product_ && mode_->gap <= coincident);
   if (!meets) return Ending::none;
   if (has_product(target_, track())) return Ending::unsettled;
-  // A double eigenvalue has no derivatives, so that Newton's method cannot go on.
-  return of_axis && (look > 1 || on_axis) ? Ending::at_meeting : Ending::passed;
+  // A double eigenvalue has no derivatives, so that Newton's method cannot go on. Of a zero the signs on both
+  // sides are known; that Re s may touch zero shows nothing where rounding hides it.
+  const bool changes_sign = target_.sought == Sought::zero;
+  return of_axis && changes_sign && (look > 1 || on_axis) ? Ending::at_meeting : Ending::passed;
 }
 
 /// Replaces Newton's move where eigenvalues coincide at the left end of the step and that move would lead
@@ -236,16 +238,16 @@ void CriterionWalk::finish(double offset, double distance) {
   if (target_.sought == Sought::zero) return record(offset, true);
   const double value = jet(g_, offset)[0];
   const double curvature = 2.0 * g_[2];
+  const double change = std::abs(curvature) * step_.h * step_.h / 8.0;  // over half a step
   if (target_.sought == Sought::extremum) {
     // Where a pair meets on the real axis its damping ratio is 1 or -1, an extremum of no interest.
     const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
-    const double change = std::abs(curvature) * step_.h * step_.h / 8.0;  // over half a step
     const bool matters = change > search_.thresholds().criterion.extremum * search_.options.tolerance;
     if (oscillates && matters) record(offset, true);
     return;
   }
   if (std::abs(value) <= rounding()) {
-    record(offset, true);
+    if (change > rounding()) record(offset, true);
   } else if (value * curvature < 0.0) {
     const double half = std::sqrt(-2.0 * value / curvature);
     for (const double side : {-half, half}) {
