@@ -20,6 +20,10 @@ class Program(CommandTest):
     def test_version_names_the_program_and_a_number(self):
         self.assertRegex(self.run_well("--version"), r"^eigentrail \d+\.\d+\.\d+\n$")
 
+    def test_libraries_are_not_those_of_the_current_folder(self):
+        self.write("libz.so.1", "no library")
+        self.run_well("--version")
+
     def test_help_names_every_command_and_the_exit_codes(self):
         text = self.run_well("--help")
         for fragment in [*COMMANDS, "Exit codes"]:
