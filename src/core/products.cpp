@@ -1,6 +1,7 @@
 #include "core/products.hpp"
 
 #include <algorithm>
+#include <utility>
 
 // BLAS by its Fortran interface: not every BLAS has the C interface.
 extern "C" {
@@ -23,18 +24,23 @@ void zgemm_(const char* form_A, const char* form_B, const int* m, const int* n, 
 namespace eigentrail {
 namespace {
 
-/// A B (form 'N'), A^T B (form 'T') or A^H B (form 'C'). `multiply`: dgemm_ or zgemm_.
+/// Adds A B (form 'N'), A^T B (form 'T') or A^H B (form 'C') to C. `multiply`: dgemm_ or zgemm_.
+template <class Dense, class Gemm>
+void add_full_product(Gemm multiply, char form, const Dense& A, const Dense& B, Dense& C) {
+  const auto rows = static_cast<int>(C.rows());
+  const auto columns = static_cast<int>(C.cols());
+  const auto inner = static_cast<int>(B.rows());
+  if (rows == 0 || columns == 0 || inner == 0) return;
+  const auto stride = static_cast<int>(A.rows());
+  const typename Dense::Scalar one = 1.0;
+  multiply(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, B.data(), &inner, &one, C.data(),
+           &rows);
+}
+
 template <class Dense, class Gemm>
 Dense full_product(Gemm multiply, char form, const Dense& A, const Dense& B) {
-  const auto rows = static_cast<int>(form == 'N' ? A.rows() : A.cols());
-  const auto columns = static_cast<int>(B.cols());
-  const auto inner = static_cast<int>(B.rows());
-  if (rows == 0 || columns == 0 || inner == 0) return Dense::Zero(rows, columns);
-  const auto stride = static_cast<int>(A.rows());
-  const typename Dense::Scalar one = 1.0, zero = 0.0;
-  Dense C(rows, columns);
-  multiply(&form, "N", &rows, &columns, &inner, &one, A.data(), &stride, B.data(), &inner, &zero, C.data(),
-           &rows);
+  Dense C = Dense::Zero(form == 'N' ? A.rows() : A.cols(), B.cols());
+  add_full_product(multiply, form, A, B, C);
   return C;
 }
 
@@ -105,12 +111,10 @@ MatrixSeries series_product(const std::vector<Left>& A, const std::vector<Right>
 /// zero. It affects only the time.
 constexpr Eigen::Index few_entries = 12;
 
-Eigen::Index nonzeros(const Matrix& A) {
-  return (A.array() != 0.0).count();
-}
-
 bool has_few_entries(const Matrix& A) {
-  return few_entries * nonzeros(A) <= A.size();
+  Eigen::Index allowed = A.size() / few_entries;
+  for (Eigen::Index j = 0; j < A.cols() && allowed >= 0; ++j) allowed -= (A.col(j).array() != 0.0).count();
+  return allowed >= 0;
 }
 
 /// A B and A^T B, without the zeros of B and of A, respectively, where they are most of its entries.
@@ -147,8 +151,9 @@ MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t c
     return series_product(A, *sparse, A[0].rows(), count,
                           [](const Matrix& a, const SparseMatrix& b, Matrix& sum) { sum += a * b; });
   }
-  return series_product(A, B, A[0].rows(), count,
-                        [](const Matrix& a, const Matrix& b, Matrix& sum) { sum += dgemm('N', a, b); });
+  return series_product(A, B, A[0].rows(), count, [](const Matrix& a, const Matrix& b, Matrix& sum) {
+    add_full_product(dgemm_, 'N', a, b, sum);
+  });
 }
 
 MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
@@ -157,21 +162,71 @@ MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, st
         *sparse, B, A[0].cols(), count,
         [](const SparseMatrix& a, const Matrix& b, Matrix& sum) { sum += a.transpose() * b; });
   }
-  return series_product(A, B, A[0].cols(), count,
-                        [](const Matrix& a, const Matrix& b, Matrix& sum) { sum += dgemm('T', a, b); });
+  return series_product(A, B, A[0].cols(), count, [](const Matrix& a, const Matrix& b, Matrix& sum) {
+    add_full_product(dgemm_, 'T', a, b, sum);
+  });
 }
 
-MatrixSeries congruence(const SparseSeries& left, const SparseSeries& B, const SparseSeries& right,
+namespace {
+
+/// Adds the product of a number and a series, shifted by `first` coefficients, as far as there is room for
+/// it.
+void add_shifted(double factor, const double* series, std::size_t size, std::size_t first, double* sum,
+                 std::size_t room) {
+  for (std::size_t k = first; k < room && k - first < size; ++k) sum[k] += factor * series[k - first];
+}
+
+/// left(h)^T B(h) right(h), column by column. The coefficients of a column lie together.
+MatrixSeries by_columns(const SparseSeries& left, const SystemSeries& B, const SparseSeries& right,
                         std::size_t count) {
   const std::size_t products = std::min(count, B.size() + right.size() - 1);
-  SparseSeries BT(products, SparseMatrix(B[0].rows(), right[0].cols()));
-  for (std::size_t i = 0; i < B.size(); ++i) {
-    for (std::size_t j = 0; j < right.size() && i + j < products; ++j) BT[i + j] += B[i] * right[j];
+  MatrixSeries result(std::min(count, products + left.size() - 1),
+                      Matrix::Zero(left[0].cols(), right[0].cols()));
+  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const std::vector<Rows> rows_of_left(left.begin(), left.end());
+  // Of B(h) right(h), and the rows that are not zero; of the result.
+  Matrix column = Matrix::Zero(static_cast<Eigen::Index>(products), B[0].rows());
+  std::vector<Eigen::Index> filled;
+  std::vector<char> is_filled(static_cast<std::size_t>(column.cols()));
+  Matrix sum(static_cast<Eigen::Index>(result.size()), left[0].cols());
+  for (Eigen::Index c = 0; c < right[0].cols(); ++c) {
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      for (SparseMatrix::InnerIterator r(right[j], c); r; ++r) {
+        for (std::size_t i = 0; i < B.size() && i + j < products; ++i) {
+          for (SparseMatrix::InnerIterator b(B[i].sparse(), r.row()); b; ++b) {
+            column(static_cast<Eigen::Index>(i + j), b.row()) += b.value() * r.value();
+            if (!std::exchange(is_filled[static_cast<std::size_t>(b.row())], true)) filled.push_back(b.row());
+          }
+        }
+      }
+    }
+    std::sort(filled.begin(), filled.end());
+    sum.setZero();
+    for (const Eigen::Index row : filled) {
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        for (Rows::InnerIterator l(rows_of_left[i], row); l; ++l)
+          add_shifted(l.value(), column.col(row).data(), products, i, sum.col(l.col()).data(), result.size());
+      }
+      column.col(row).setZero();
+      is_filled[static_cast<std::size_t>(row)] = false;
+    }
+    filled.clear();
+    for (std::size_t k = 0; k < result.size(); ++k) result[k].col(c) = sum.row(static_cast<Eigen::Index>(k));
   }
-  return series_product(left, BT, left[0].cols(), std::min(count, BT.size() + left.size() - 1),
-                        [](const SparseMatrix& t, const SparseMatrix& bt, Matrix& sum) {
-                          sum += SparseMatrix(t.transpose() * bt);
-                        });
+  return result;
+}
+
+}  // namespace
+
+std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
+                                              const MatrixSeries& right, std::size_t count) {
+  if (!B[0].is_sparse()) return std::nullopt;
+  const auto sparse_left = mostly_zero(left);
+  if (!sparse_left) return std::nullopt;
+  if (&left == &right) return by_columns(*sparse_left, B, *sparse_left, count);
+  const auto sparse_right = mostly_zero(right);
+  if (!sparse_right) return std::nullopt;
+  return by_columns(*sparse_left, B, *sparse_right, count);
 }
 
 ComplexMatrix product(const Matrix& A, const ComplexMatrix& X) {

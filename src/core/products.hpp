@@ -28,9 +28,10 @@ using SparseSeries = std::vector<SparseMatrix>;
 /// bodies whose constraints fall into blocks; else empty.
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A);
 
-/// The first coefficients, at most `count`, of left(h)^T B(h) right(h).
-MatrixSeries congruence(const SparseSeries& left, const SparseSeries& B, const SparseSeries& right,
-                        std::size_t count);
+/// The first coefficients, at most `count`, of left(h)^T B(h) right(h). Empty unless B has sparse
+/// coefficients and most entries of each of the other ones are exactly zero.
+std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
+                                              const MatrixSeries& right, std::size_t count);
 
 /// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h). Zeros of the factor that is given second
 /// and first, respectively, are left out where they are most of its entries.

@@ -63,12 +63,17 @@ Structure structure_of(std::initializer_list<const Assembly*> parts, const std::
       matrices[target].add(part->equations().inputs[target]);
   }
   const MultibodyData& data = (*parts.begin())->data();
+  std::vector<char> parameter_changes;
+  for (int i = 0; i < static_cast<int>(data.parameters.list().size()); ++i) {
+    const auto depends = [&](int parameter) { return data.parameters.depends_on(i, parameter); };
+    parameter_changes.push_back(std::any_of(moving.begin(), moving.end(), depends));
+  }
   const auto changes = [&](const Inputs& inputs) {
     return std::any_of(inputs.numbers.begin(), inputs.numbers.end(), [&](int slot) {
       const auto at = static_cast<std::size_t>(slot);
-      return at < data.quantities.size() && std::any_of(moving.begin(), moving.end(), [&](int parameter) {
-               return data.parameters.depends_on(data.quantities[at], parameter);
-             });
+      if (at >= data.quantities.size()) return false;
+      const auto& used = data.quantities[at].parameters();
+      return std::any_of(used.begin(), used.end(), [&](int i) { return parameter_changes[i]; });
     });
   };
   const bool trimmed = moving.size() > 1;

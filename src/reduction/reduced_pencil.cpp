@@ -1,7 +1,6 @@
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/products.hpp"
 #include "eigentrail/reduction/complex_blocks.hpp"
@@ -13,19 +12,6 @@ namespace {
 /// all.
 std::size_t last_order(int order, std::size_t sum_of_sizes, std::size_t factors) {
   return std::min<std::size_t>(static_cast<std::size_t>(order), sum_of_sizes - factors);
-}
-
-/// left^T B right by sparse matrices, if all factors have such coefficients.
-std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
-                                              const MatrixSeries& right, int order) {
-  if (!B[0].is_sparse()) return std::nullopt;
-  const auto sparse_left = mostly_zero(left);
-  if (!sparse_left) return std::nullopt;
-  const auto sparse_right = &left == &right ? sparse_left : mostly_zero(right);
-  if (!sparse_right) return std::nullopt;
-  SparseSeries sparse_B;
-  for (const SystemMatrix& coefficient : B) sparse_B.push_back(coefficient.sparse());
-  return congruence(*sparse_left, sparse_B, *sparse_right, static_cast<std::size_t>(order) + 1);
 }
 
 MatrixSeries dense_terms(const SystemSeries& B, std::size_t count) {
@@ -48,7 +34,7 @@ MatrixSeries times_basis(const SystemSeries& B, const MatrixSeries& T, std::size
 MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order) {
   const MatrixSeries& T = basis.T;
   if (basis.is_identity) return dense_terms(B, last_order(order, B.size(), 1) + 1);
-  if (auto sparse = sparse_congruence(T, B, T, order)) return *sparse;
+  if (auto sparse = sparse_congruence(T, B, T, static_cast<std::size_t>(order) + 1)) return *sparse;
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
   // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
@@ -129,8 +115,7 @@ MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, c
     return result;
   }
   std::optional<MatrixSeries> sparse;
-  if (B[0].is_sparse())
-    sparse = sparse_congruence({parts.left}, B, {parts.right}, static_cast<int>(count) - 1);
+  if (B[0].is_sparse()) sparse = sparse_congruence({parts.left}, B, {parts.right}, count);
   for (std::size_t k = 0; k < count; ++k)
     result[k] = (sparse ? (*sparse)[k] : blocks_of(parts, B[k])).cwiseProduct(pattern);
   return result;
@@ -153,7 +138,7 @@ MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const
     const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
     return transposed_product(basis.left, BT, count);
   };
-  auto sparse = sparse_congruence(basis.left, B, basis.T, order);
+  auto sparse = sparse_congruence(basis.left, B, basis.T, static_cast<std::size_t>(order) + 1);
   MatrixSeries result = sparse ? *std::move(sparse) : product();
   for (const IndependentParts::Range& range : basis.parts->ranges) {
     if (range.size > 1) continue;

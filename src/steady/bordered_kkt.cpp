@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/products.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -64,7 +66,8 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
     terms = rows_of_x_.colwise().norm().transpose() + reactions * K_.norm();
   }
   Matrix B(f + q, f + q);
-  B.topLeftCorner(f, f) = Q2.transpose() * K_ * Q2;
+  const auto tangent = sparse_congruence({Q2}, {K_}, {Q2}, 1);
+  B.topLeftCorner(f, f) = tangent ? tangent->front() : Matrix(Q2.transpose() * (K_ * Q2));
   for (Eigen::Index i = 0; i < q; ++i) {
     B.block(0, f + i, f, 1) = Q2.transpose() * (border_.force.col(i) + K_ * follow_.col(i));
     B.block(f + i, 0, 1, f) = row.col(i).transpose() * Q2;
