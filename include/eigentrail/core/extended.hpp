@@ -19,6 +19,25 @@ using Binary128 = long double;  // platforms whose long double is binary128
 static_assert(std::numeric_limits<long double>::digits == 113);
 #endif
 
+// Functions of the C library for binary128. They are declared here by their standard names (ISO/IEC TS
+// 18661-3), because the types in the C library's header differ between compilers.
+extern "C" {
+Binary128 binary128_abs(Binary128) noexcept __asm__("fabsf128");
+Binary128 binary128_floor(Binary128) noexcept __asm__("floorf128");
+Binary128 binary128_sqrt(Binary128) noexcept __asm__("sqrtf128");
+Binary128 binary128_exp(Binary128) noexcept __asm__("expf128");
+Binary128 binary128_log(Binary128) noexcept __asm__("logf128");
+Binary128 binary128_sin(Binary128) noexcept __asm__("sinf128");
+Binary128 binary128_cos(Binary128) noexcept __asm__("cosf128");
+Binary128 binary128_tan(Binary128) noexcept __asm__("tanf128");
+Binary128 binary128_asin(Binary128) noexcept __asm__("asinf128");
+Binary128 binary128_acos(Binary128) noexcept __asm__("acosf128");
+Binary128 binary128_atan(Binary128) noexcept __asm__("atanf128");
+Binary128 binary128_sinh(Binary128) noexcept __asm__("sinhf128");
+Binary128 binary128_cosh(Binary128) noexcept __asm__("coshf128");
+Binary128 binary128_tanh(Binary128) noexcept __asm__("tanhf128");
+}
+
 /// A binary128 number. A class is needed because the C++ standard library has no functions for the compilers'
 /// own binary128 types. The functions are hidden friends, found only for Extended arguments, so no call with
 /// a double selects them.
@@ -62,21 +81,21 @@ class Extended {
   friend bool operator<=(const Extended& a, const Extended& b) { return a.value_ <= b.value_; }
   friend bool operator>=(const Extended& a, const Extended& b) { return a.value_ >= b.value_; }
 
-  friend Extended abs(const Extended& x);
-  friend Extended floor(const Extended& x);
-  friend Extended sqrt(const Extended& x);
-  friend Extended exp(const Extended& x);
-  friend Extended log(const Extended& x);
-  friend Extended sin(const Extended& x);
-  friend Extended cos(const Extended& x);
-  friend Extended tan(const Extended& x);
-  friend Extended asin(const Extended& x);
-  friend Extended acos(const Extended& x);
-  friend Extended atan(const Extended& x);
-  friend Extended sinh(const Extended& x);
-  friend Extended cosh(const Extended& x);
-  friend Extended tanh(const Extended& x);
-  friend bool isfinite(const Extended& x);
+  friend Extended abs(const Extended& x) { return of(binary128_abs(x.value_)); }
+  friend Extended floor(const Extended& x) { return of(binary128_floor(x.value_)); }
+  friend Extended sqrt(const Extended& x) { return of(binary128_sqrt(x.value_)); }
+  friend Extended exp(const Extended& x) { return of(binary128_exp(x.value_)); }
+  friend Extended log(const Extended& x) { return of(binary128_log(x.value_)); }
+  friend Extended sin(const Extended& x) { return of(binary128_sin(x.value_)); }
+  friend Extended cos(const Extended& x) { return of(binary128_cos(x.value_)); }
+  friend Extended tan(const Extended& x) { return of(binary128_tan(x.value_)); }
+  friend Extended asin(const Extended& x) { return of(binary128_asin(x.value_)); }
+  friend Extended acos(const Extended& x) { return of(binary128_acos(x.value_)); }
+  friend Extended atan(const Extended& x) { return of(binary128_atan(x.value_)); }
+  friend Extended sinh(const Extended& x) { return of(binary128_sinh(x.value_)); }
+  friend Extended cosh(const Extended& x) { return of(binary128_cosh(x.value_)); }
+  friend Extended tanh(const Extended& x) { return of(binary128_tanh(x.value_)); }
+  friend bool isfinite(const Extended& x) { return x.value_ - x.value_ == 0; }
 
  private:
   static Extended of(Binary128 value) {

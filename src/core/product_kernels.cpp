@@ -1,0 +1,4 @@
+#include "core/precompiled.hpp"
+
+#define EIGENTRAIL_COMPILED_ONCE template
+#include "core/product_kernels.inc"
