@@ -146,6 +146,28 @@ class Functions(unittest.TestCase):
             et.map(et.Family(quadratic), omega=(0, 1), d=(0, 1))
 
 
+    def test_rigid_motions_of_states_are_followed_together(self):
+        # Two free motions are a fourfold zero of the states, known to the root of rounding.
+        for seed in range(6):
+            rng = np.random.default_rng(seed)
+            n = 4
+            V = rng.standard_normal((n, n))
+            held = np.diag([0.0, 0.0, 1.0, 1.0]) @ V
+            B = [X @ X.T for X in rng.standard_normal((2, n, n))]
+
+            def states(p):
+                K = np.linalg.solve(V.T @ V, held.T @ (B[0] + (1 + np.sin(p)) * B[1] + np.eye(n)) @ held)
+                return dict(A=np.block([[np.zeros((n, n)), np.eye(n)], [-K, -0.1 * K]]))
+
+            with self.subTest(seed=seed):
+                loci = et.trace(et.Family(states), p=(0, 2))
+                self.assertEqual(loci.attrs["status"], "completed")
+                self.assertFalse(loci.eigentrail.events.kind.isin(["flutter", "divergence"]).any())
+                exact = np.linalg.eigvals(states(float(loci.p[-1]))["A"])
+                elastic = np.sort_complex(exact[(np.abs(exact) > 1e-3) & (exact.imag > 0)])
+                found = loci.eigenvalue.values[-1]
+                np.testing.assert_allclose(np.sort_complex(found[np.isfinite(found) & (found.imag > 1e-3)]), elastic, rtol=1e-6)
+
     def test_a_matrix_that_is_symmetric_but_for_rounding_cannot_flutter(self):
         # Two equal planes of a shaft in coordinates that mix them: K is symmetric to 1e-16 only.
         n = 6

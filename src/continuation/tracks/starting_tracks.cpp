@@ -16,13 +16,15 @@ namespace {
 constexpr double close = 1e-4;
 
 /// Double eigenvalues zero, rigid-body motions for example, are known only to the square root of rounding,
-/// relative to the square root of |K|/|M|. This is ten times as much, for the factors that depend on n.
+/// relative to the square root of |K|/|M|, or to |K|/|C| in equations of first order. This is ten times as
+/// much, for the factors that depend on n.
 constexpr double blurred = 1.5e-7;
 
 /// Magnitude (1/s) up to which eigenvalues cannot be distinguished from zero.
 double blur_at_zero(const ReducedPencil& pencil) {
-  const double mass = pencil.M[0].norm();
-  return mass > 0.0 ? blurred * std::sqrt(pencil.K[0].norm() / mass) : 0.0;
+  const double mass = pencil.M[0].norm(), damping = pencil.C[0].norm(), stiffness = pencil.K[0].norm();
+  if (mass > 0.0) return blurred * std::sqrt(stiffness / mass);
+  return damping > 0.0 ? blurred * stiffness / damping : 0.0;
 }
 
 /// Indices of modes that are connected by close eigenvalues; those of copies are by themselves. A mode is
@@ -56,7 +58,8 @@ std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
     const StartingMode& first = modes[static_cast<std::size_t>(members.front())];
     if (first.copy > 0 || members.front() >= n_modes) continue;
     const bool is_real = std::any_of(members.begin(), members.end(), [&](Eigen::Index i) {
-      return near_real(modes[static_cast<std::size_t>(i)].s, s_ref);
+      const Complex s = modes[static_cast<std::size_t>(i)].s;
+      return near_real(s, s_ref) || std::abs(s) <= blur;
     });
     std::vector<Complex> roots;
     StartingGroup group;
