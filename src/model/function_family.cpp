@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/texts.hpp"
 #include "core/transposition.hpp"
@@ -358,9 +357,9 @@ auto chebyshev_sum(const std::vector<Matrix>& coefficients, const Series<Real, Q
 /// The values at the Chebyshev points. Common structure is exact to rounding in them, but not in the last
 /// coefficients, which are little more than rounding themselves.
 void append_values(const std::vector<Matrix>& coefficients, std::vector<Matrix>& values) {
-  const auto last = static_cast<double>(coefficients.size() - 1);
-  for (std::size_t j = 0; j < coefficients.size(); ++j) {
-    const Series<double, 0> x(last > 0.0 ? std::cos(std::numbers::pi * static_cast<double>(j) / last) : 0.0);
+  const int count = static_cast<int>(coefficients.size()), degree = std::max(1, count - 1);
+  for (int j = 0; j < count; ++j) {
+    const Series<double, 0> x(chebyshev_point(j, degree));
     values.push_back(chebyshev_sum<double, 0>(coefficients, x, 0).front().dense());
   }
 }

@@ -7,6 +7,11 @@
 #include <utility>
 
 namespace eigentrail {
+
+double chebyshev_point(int j, int degree) {
+  return std::cos(M_PI * j / degree);
+}
+
 namespace {
 
 constexpr int first_degree = 4;
@@ -25,10 +30,6 @@ constexpr double faster = 1.25;
 /// Factor by which the square of the error of half the degree, or the error that is predicted for the last
 /// degree, may exceed the tolerance: both are too large where functions oscillate.
 constexpr double far_too_large = 1e3;
-
-double chebyshev_point(int j, int degree) {
-  return std::cos(M_PI * j / degree);
-}
 
 /// Factors of the values at the points 0 ... degree in the coefficients: coefficients = values * result.
 Matrix transform(int degree) {

@@ -14,6 +14,9 @@
 
 namespace eigentrail {
 
+/// x_j, j = 0 ... degree, for a degree of at least 1.
+double chebyshev_point(int j, int degree);
+
 /// A piece with the Chebyshev coefficients of all functions: f_i(p) = sum_j coefficients(i, j) T_j(x).
 struct ChebyshevPiece {
   double from = 0.0, to = 0.0;

@@ -66,7 +66,8 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
     terms = rows_of_x_.colwise().norm().transpose() + reactions * K_.norm();
   }
   Matrix B(f + q, f + q);
-  const auto tangent = sparse_congruence({Q2}, {K_}, {Q2}, 1);
+  const MatrixSeries basis{Q2};
+  const auto tangent = sparse_congruence(basis, {K_}, basis, 1);
   B.topLeftCorner(f, f) = tangent ? tangent->front() : Matrix(Q2.transpose() * (K_ * Q2));
   for (Eigen::Index i = 0; i < q; ++i) {
     B.block(0, f + i, f, 1) = Q2.transpose() * (border_.force.col(i) + K_ * follow_.col(i));
