@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 
 #include "core/hdf5_file.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "model/affine_factor.hpp"
@@ -11,76 +13,125 @@
 #include "model/draft.hpp"
 #include "model/expression_terms.hpp"
 #include "model/family_tables.hpp"
-#include "model/read_sparse_family.hpp"
 
 namespace eigentrail {
 namespace {
 
-constexpr Eigen::Index max_size = limits::matrix_rows;
 constexpr int max_power = limits::matrix_power;
 
-/// A matrix polynomial in the variable of the family: for every power a term with the constant entries, then
-/// those of the entries that are expressions of parameters.
-struct Polynomial {
-  DenseTerms terms = {};
-  int powers = 0;  ///< the highest, and one more
+template <class Storage>
+constexpr bool is_sparse = std::is_same_v<Storage, SparseMatrix>;
+template <class Storage>
+constexpr Eigen::Index max_rows = is_sparse<Storage> ? limits::sparse_rows : limits::matrix_rows;
 
-  bool empty() const { return terms.empty(); }
-  /// Whether the matrix is given, but has no entries: it is absent.
-  bool is_zero() const {
-    return std::all_of(terms.begin(), terms.end(),
-                       [](const AffineTerm<Matrix>& term) { return term.matrix.isZero(0.0); });
+/// The terms of one matrix: with powers of the traced parameter, with factors that the scene gives, or with
+/// those of its entries that are expressions of parameters.
+template <class Storage>
+using Terms = std::vector<AffineTerm<Storage>>;
+
+bool has_finite_entries(const Matrix& matrix) {
+  return matrix.allFinite();
+}
+bool has_finite_entries(const SparseMatrix& matrix) {
+  return Eigen::Map<const Vector>(matrix.valuePtr(), matrix.nonZeros()).allFinite();
+}
+
+/// Whether a matrix of the file is sparse: a group with the datasets data, indices and indptr, as
+/// scipy.sparse.csr_matrix.
+bool is_compressed(const Hdf5File& file, const std::string& path) {
+  return file.has(path + "/indptr");
+}
+
+bool has_sparse_matrices(const Hdf5File& file) {
+  for (const char* key : {"/M", "/C", "/K", "/E", "/A"}) {
+    if (!file.has(key)) continue;
+    for (const std::string& name : file.members(key)) {
+      if (is_compressed(file, std::string(key) + "/" + name)) return true;
+    }
   }
-};
+  return false;
+}
 
-struct FamilyReader {
+class FamilyReader {
+ public:
   FamilyReader(const Scene& of, const ModelRequest& request)
       : scene(of),
         draft(of, request),
         table(draft.reader(only_table(of, "matrix_family"), "[matrix_family]")),
-        variable(traced_index(
+        variable_(traced_index(
             of, "matrix_family",
-            "the parameter whose powers multiply the matrices, also when another one is traced")) {}
+            "the parameter whose powers multiply the matrices, also when another one is traced")) {
+    if (!table.has("factors")) return;
+    if (!table.has("file")) fail("factors", "are those of matrices in a file; name it: file = \"...\"");
+    TableReader factors = table.table("factors");
+    for (const std::string& name : factors.keys()) factors_.emplace_back(name, factors.expression(name));
+  }
 
   const Scene& scene;
   Draft draft;
   TableReader table;
-  int variable;  ///< index of the parameter whose powers multiply the matrices
-  std::size_t n_numbers = 0;
 
   [[noreturn]] void fail(const std::string& key, const std::string& message) const {
     table.fail(key, message);
   }
 
-  /// The keys of the scene's matrices, or those of an empty form if it has none.
-  bool is_first_order(bool has_M, bool has_C, bool has_K, bool has_E, bool has_A,
-                      const std::string& key) const {
-    const bool second_order = has_M || has_C || has_K;
-    if (has_E && second_order)
-      fail(key,
-           "E and A stand for E x' = A x; beside M, C and K write E as C, and A as K with the other sign");
-    if (has_E && !has_A) fail(key, "E without A; the equations are E x' = A x");
-    return has_A && !second_order;
+  bool has_factors() { return table.has("factors"); }
+  /// Every factor of the scene must have a matrix: a misspelt one would change nothing.
+  void reject_unused_factors() const {
+    for (const auto& [name, factor] : factors_) {
+      if (std::find(named_.begin(), named_.end(), name) == named_.end())
+        fail("factors", "'" + name + "' is the name of no matrix in the file; it has " +
+                            (named_.empty() ? "powers of the parameter only" : joined(named_, ", ")));
+    }
   }
 
-  /// The polynomial as written in the scene.
-  Polynomial from_scene(const std::string& key) {
-    const auto matrices = table.matrices(key);
+  /// The terms of the matrices KEY/0, KEY/1, ... of a file or in memory; none if it has none.
+  template <class Storage, class Source>
+  Terms<Storage> terms(const Source& source, const std::string& key) {
+    Terms<Storage> result;
+    for (const std::string& name : names_in(source, key)) {
+      const std::string path = "/" + key + "/" + name;
+      result.push_back({factor(path, name), matrix<Storage>(source, path), name});
+    }
+    return result;
+  }
+
+  /// Those written in the scene: K and M or C must be there.
+  template <class Storage>
+  DenseTerms terms(TableReader& source, const std::string& key) {
+    const bool needed = key == "K" || (key == "M" && !source.has("C"));
+    if (!needed && !source.has(key)) return {};
+    const auto matrices = source.matrices(key);
     if (matrices.empty()) fail(key, "expected at least one matrix");
     if (static_cast<int>(matrices.size()) > max_power + 1) {
       fail(key, "has powers beyond " + std::to_string(max_power));
     }
-    Polynomial polynomial;
-    DenseTerms of_expressions;
-    for (const auto& rows : matrices) add_power(polynomial, of_expressions, rows, key);
-    polynomial.terms.insert(polynomial.terms.end(), of_expressions.begin(), of_expressions.end());
-    return polynomial;
+    DenseTerms result, of_expressions;
+    for (const auto& rows : matrices) add_power(result, of_expressions, rows, key);
+    result.insert(result.end(), of_expressions.begin(), of_expressions.end());
+    return result;
   }
 
+  /// The names of the matrices of a group; none if it is absent.
+  static std::vector<std::string> names_in(TableReader& source, const std::string& key) {
+    return source.has(key) ? std::vector<std::string>{key} : std::vector<std::string>();
+  }
+  static std::vector<std::string> names_in(const Hdf5File& file, const std::string& key) {
+    return file.has("/" + key) ? file.members("/" + key) : std::vector<std::string>();
+  }
+  static std::vector<std::string> names_in(const MatricesInMemory& matrices, const std::string& key) {
+    std::vector<std::string> names;
+    const auto group = matrices.find(key);
+    if (group == matrices.end()) return names;
+    for (const auto& [name, matrix] : group->second) names.push_back(name);
+    return names;
+  }
+
+ private:
   /// Adds the matrix of the next power.
-  void add_power(Polynomial& polynomial, DenseTerms& of_expressions,
+  void add_power(DenseTerms& terms, DenseTerms& of_expressions,
                  const std::vector<std::vector<Expression>>& rows, const std::string& key) {
-    const int power = polynomial.powers++;
+    const auto power = static_cast<int>(terms.size());
     const auto n_rows = static_cast<Eigen::Index>(rows.size());
     const auto n_columns = static_cast<Eigen::Index>(rows.empty() ? 0 : rows[0].size());
     Matrix constant = Matrix::Zero(n_rows, n_columns);
@@ -101,167 +152,184 @@ struct FamilyReader {
         }
       }
     }
-    const Expression factor = power_of_parameter(variable, power);
-    polynomial.terms.push_back({factor, std::move(constant)});
+    const Expression factor = factor_of_power(power);
+    terms.push_back({factor, std::move(constant)});
     for (AffineTerm<Matrix>& term : expressions.take(factor)) of_expressions.push_back(std::move(term));
   }
 
-  /// Counts the numbers of all matrices, zeros included.
-  void count(std::size_t numbers) {
-    n_numbers += numbers;
-    if (n_numbers > limits::matrix_numbers) {
-      fail("file",
-           "more than " + std::to_string(limits::matrix_numbers) + " numbers in all matrices together");
+  Expression factor_of_power(int power) {
+    if (power > 0) draft.used.insert(variable_);
+    return power_of_parameter(variable_, power);
+  }
+
+  Expression factor(const std::string& path, const std::string& name) {
+    if (const std::optional<int> power = power_in(name)) {
+      if (*power < 0 || *power > max_power)
+        fail("file", "dataset " + path + ": expected a power from 0 to " + std::to_string(max_power));
+      return factor_of_power(*power);
     }
-  }
-
-  /// The polynomial in the matrices KEY/0, KEY/1, ... of a file or in memory.
-  template <class Source>
-  Polynomial polynomial_in(const Source& source, const std::string& key) {
-    Polynomial polynomial;
-    for (const std::string& name : names_in(source, key)) {
-      const int power = power_of(name, key);
-      polynomial.terms.push_back({power_of_parameter(variable, power), matrix(source, key, name)});
-      polynomial.powers = std::max(polynomial.powers, power + 1);
+    named_.push_back(name);
+    for (const auto& [known, expression] : factors_) {
+      if (known == name) return expression;
     }
-    return polynomial;
+    fail("file", "matrix " + path +
+                     ": neither a power of the parameter (0, 1, ...) nor a name with a factor; give it one: "
+                     "factors = { " +
+                     name + " = \"...\" }");
   }
 
-  /// Of the scene: K and M or C must be there.
-  Polynomial polynomial_in(TableReader& source, const std::string& key) {
-    const bool needed = key == "K" || (key == "M" && !source.has("C"));
-    return needed || source.has(key) ? from_scene(key) : Polynomial();
-  }
-  int power_of(const std::string& name, const std::string& key) const {
-    const std::optional<int> power = power_in(name);
-    if (!power || *power < 0 || *power > max_power)
-      fail("file",
-           "dataset /" + key + "/" + name + ": expected a power from 0 to " + std::to_string(max_power));
-    return *power;
-  }
-
-  /// The names of the matrices of a group; none if it is absent.
-  static std::vector<std::string> names_in(TableReader& source, const std::string& key) {
-    return source.has(key) ? std::vector<std::string>{key} : std::vector<std::string>();
-  }
-  static std::vector<std::string> names_in(const Hdf5File& file, const std::string& key) {
-    return file.has("/" + key) ? file.members("/" + key) : std::vector<std::string>();
-  }
-  static std::vector<std::string> names_in(const MatricesInMemory& matrices, const std::string& key) {
-    std::vector<std::string> names;
-    const auto group = matrices.find(key);
-    if (group == matrices.end()) return names;
-    for (const auto& [name, matrix] : group->second) names.push_back(name);
-    return names;
-  }
-
-  Matrix matrix(const MatricesInMemory& matrices, const std::string& key, const std::string& name) {
-    const MatrixInMemory& view = matrices.at(key).at(name);
-    if (view.rows > max_size || view.columns > max_size)
-      fail("file", key + "/" + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
+  template <class Storage>
+  Storage matrix(const MatricesInMemory& matrices, const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    const MatrixInMemory& view = matrices.at(path.substr(1, slash - 1)).at(path.substr(slash + 1));
+    if (view.rows > max_rows<Storage> || view.columns > max_rows<Storage>) fail_size<Storage>(path);
     count(static_cast<std::size_t>(view.rows * view.columns));
     using Strides = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
     return Eigen::Map<const Matrix, 0, Strides>(view.data, view.rows, view.columns,
                                                 Strides(view.column_stride, view.row_stride));
   }
 
-  Matrix matrix(const Hdf5File& file, const std::string& key, const std::string& in_group) {
-    const std::string name = "/" + key + "/" + in_group;
-    const Shape shape = file.shape(name);
-    if (shape.size() != 2 || shape[0] > max_size || shape[1] > max_size) {
-      fail("file",
-           "dataset " + name + ": expected a matrix of at most " + std::to_string(max_size) + " rows");
+  template <class Storage>
+  Storage matrix(const Hdf5File& file, const std::string& path) {
+    if constexpr (is_sparse<Storage>) {
+      if (is_compressed(file, path)) return compressed_rows(file, path);
     }
+    const Shape shape = file.shape(path);
+    if (shape.size() != 2 || shape[0] > max_rows<Storage> || shape[1] > max_rows<Storage>)
+      fail_size<Storage>(path);
     count(shape[0] * shape[1]);
-    const std::vector<double> data = file.read_real(name);
+    const std::vector<double> data = file.read_real(path);
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    return Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(shape[0]),
-                                      static_cast<Eigen::Index>(shape[1]));
+    const Eigen::Map<const RowMajor> rows(data.data(), static_cast<Eigen::Index>(shape[0]),
+                                          static_cast<Eigen::Index>(shape[1]));
+    if constexpr (is_sparse<Storage>)
+      return rows.sparseView();
+    else
+      return rows;
   }
 
-  /// `first`: the key of the matrix that gives the size. `constraints`: rows of the matrix are constraints.
-  void check_shape(const Polynomial& polynomial, const std::string& key, Eigen::Index n,
-                   const std::string& first, bool constraints) const {
-    for (const AffineTerm<Matrix>& term : polynomial.terms) {
-      const Matrix& c = term.matrix;
-      const bool square = constraints || c.rows() == n;
-      if (c.cols() != n || !square || c.rows() != polynomial.terms[0].matrix.rows()) {
-        const std::string size = "is " + std::to_string(c.rows()) + " x " + std::to_string(c.cols());
-        if (key == first && &term == &polynomial.terms[0]) fail(key, size + "; expected a square matrix");
-        fail(key, size + ", " + first + " is " + std::to_string(n) + " x " + std::to_string(n) + "; " +
-                      (constraints ? "A needs as many columns, and the same rows for every power"
-                                   : "all have the same size"));
+  template <class Storage>
+  [[noreturn]] void fail_size(const std::string& path) const {
+    fail("file", "dataset " + path + ": expected a matrix of at most " + std::to_string(max_rows<Storage>) +
+                     " rows" + (is_sparse<Storage> ? ", or a group with data, indices and indptr" : ""));
+  }
+
+  SparseMatrix compressed_rows(const Hdf5File& file, const std::string& path) {
+    for (const char* part : {"/data", "/indices"}) {
+      if (!file.has(path + part))
+        fail("file", "matrix " + path + " has no dataset" + std::string(part).replace(0, 1, " ") +
+                         "; a sparse matrix has data, indices and indptr, as scipy.sparse.csr_matrix");
+    }
+    const Shape starts_shape = file.shape(path + "/indptr"), data_shape = file.shape(path + "/data");
+    if (starts_shape.size() != 1 || starts_shape[0] < 2 || data_shape.size() != 1 ||
+        file.shape(path + "/indices") != data_shape)
+      fail("file", "matrix " + path +
+                       ": expected lists data and indices of one length, and indptr with one entry "
+                       "more than there are rows");
+    if (starts_shape[0] - 1 > max_rows<SparseMatrix>) fail_size<SparseMatrix>(path);
+    count(data_shape[0]);
+    const auto n = static_cast<Eigen::Index>(starts_shape[0] - 1);
+    const std::vector<double> data = file.read_real(path + "/data");
+    const std::vector<std::int64_t> indices = file.read_integers(path + "/indices");
+    const std::vector<std::int64_t> starts = file.read_integers(path + "/indptr");
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(data.size());
+    for (Eigen::Index row = 0; row < n; ++row) {
+      const auto r = static_cast<std::size_t>(row);
+      if (starts[0] != 0 || starts[r + 1] < starts[r] ||
+          starts[r + 1] > static_cast<std::int64_t>(data.size()))
+        fail("file", "matrix " + path + ": indptr does not ascend from 0 to the length of data at row " +
+                         std::to_string(row + 1));
+      for (auto at = static_cast<std::size_t>(starts[r]); at < static_cast<std::size_t>(starts[r + 1]);
+           ++at) {
+        if (indices[at] < 0 || indices[at] >= n)
+          fail("file", "matrix " + path + ": row " + std::to_string(row + 1) + " has an entry in column " +
+                           std::to_string(indices[at]) + " (from 0); it is square with " + std::to_string(n) +
+                           " columns");
+        entries.emplace_back(row, static_cast<Eigen::Index>(indices[at]), data[at]);
       }
-      if (!c.allFinite()) fail(key, "has an entry that is not finite");
+    }
+    SparseMatrix result(n, n);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+
+  /// Counts the numbers of all matrices, zeros of dense ones included.
+  void count(std::size_t numbers) {
+    n_numbers_ += numbers;
+    if (n_numbers_ > limits::matrix_numbers) {
+      fail("file",
+           "more than " + std::to_string(limits::matrix_numbers) + " numbers in all matrices together");
     }
   }
+
+  int variable_;  ///< index of the parameter whose powers multiply the matrices
+  std::vector<std::pair<std::string, Expression>> factors_;
+  std::vector<std::string> named_;  ///< matrices that are no powers
+  std::size_t n_numbers_ = 0;
 };
 
-/// The matrices of M x'' + C x' + K x = 0 with A x = 0.
-struct Equations {
-  Polynomial M = {}, C = {}, K = {}, A = {};
+/// A family of M x'' + C x' + K x = 0 with A x = 0.
+template <class Storage>
+struct Equations : AffinePencil<Storage> {
   bool first_order = false;  ///< C and K are E and -A of E x' = A x
-  std::vector<std::string> state_names = {};
 };
 
-/// Writes E x' = A x, E the identity if it is absent, with the matrices of the second-order form. The shapes
-/// are checked later.
-Equations first_order(Polynomial E, Polynomial A) {
-  const Eigen::Index n = A.terms[0].matrix.cols();
-  if (E.empty()) E = {{{1.0, Matrix::Identity(n, n)}}, 1};
-  for (AffineTerm<Matrix>& term : A.terms) term.matrix = -term.matrix;
-  return {{}, std::move(E), std::move(A), {}, true};
+/// Whether the matrices of the scene or file are those of E x' = A x. `key` is named where they do not fit.
+bool is_first_order(const FamilyReader& reader, bool second_order, bool has_E, bool has_A,
+                    const std::string& key) {
+  if (has_E && second_order)
+    reader.fail(
+        key, "E and A stand for E x' = A x; beside M, C and K write E as C, and A as K with the other sign");
+  if (has_E && !has_A) reader.fail(key, "E without A; the equations are E x' = A x");
+  return has_A && !second_order;
 }
 
-const std::string expected_datasets =
-    "; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, ..., or /E/0, /A/0, ...";
-
-/// The equations of the scene's table, of a file or in memory; `key` is named where matrices do not fit.
-template <class Source>
-Equations equations_in(FamilyReader& reader, Source& source, const std::string& key) {
+/// The equations of the scene's table, of a file or in memory. The shapes are checked later.
+template <class Storage, class Source>
+Equations<Storage> equations_in(FamilyReader& reader, Source& source, const std::string& key) {
   const auto has = [&](const char* matrix) { return !reader.names_in(source, matrix).empty(); };
-  if (reader.is_first_order(has("M"), has("C"), has("K"), has("E"), has("A"), key))
-    return first_order(reader.polynomial_in(source, "E"), reader.polynomial_in(source, "A"));
-  return {reader.polynomial_in(source, "M"), reader.polynomial_in(source, "C"),
-          reader.polynomial_in(source, "K"), reader.polynomial_in(source, "A")};
-}
-
-/// Reads the equations from the file, or from memory. Returns the family itself if the file has sparse
-/// matrices or the scene gives factors of matrices; else null.
-std::unique_ptr<Model> read_file(FamilyReader& reader, Equations& p) {
-  TableReader& table = reader.table;
-  const std::string name = table.text("file");
-  const auto in_memory = reader.scene.matrices.find(name);
-  const bool is_in_memory = in_memory != reader.scene.matrices.end();
-  if (is_in_memory && table.has("factors"))
-    reader.fail("factors", "are those of matrices in a file, not in memory");
-  try {
-    std::optional<const Hdf5File> file;
-    if (!is_in_memory) file.emplace(open_beside_scene(reader.scene, table));
-    if (file && (table.has("factors") || has_sparse_matrices(*file)))
-      return read_sparse_family(reader.scene, table, *file, reader.variable, reader.draft.used);
-    for (const char* key : {"M", "C", "K", "A", "E"}) {
-      if (table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
-    }
-    if (file) {
-      const std::string fault = unknown_member(*file, {"M", "C", "K", "A", "E", "state_names"});
-      if (!fault.empty()) reader.fail("file", fault);
-      p = equations_in(reader, *file, "file");
-      if (file->has("/state_names")) p.state_names = file->read_texts("/state_names");
-    } else {
-      p = equations_in(reader, in_memory->second, "file");
-    }
-  } catch (const Hdf5Error& error) {
-    reader.fail("file", error.what() + expected_datasets);
+  const auto terms = [&](const char* matrix) { return reader.terms<Storage>(source, matrix); };
+  if (!is_first_order(reader, has("M") || has("C") || has("K"), has("E"), has("A"), key)) {
+    if (is_sparse<Storage> && has("A"))
+      reader.fail(key, "A beside M, C and K: constraints are for dense matrices without factors");
+    return {{terms("M"), terms("C"), terms("K"), terms("A")}};
   }
-  if (p.K.empty() || (p.M.empty() && p.C.empty()))
-    reader.fail("file", name + " has no dataset /K/0, or neither /M/0 nor /C/0");
-  return nullptr;
+  Equations<Storage> result{{{}, terms("E"), terms("A")}, true};
+  for (AffineTerm<Storage>& term : result.K) term.matrix = -term.matrix;
+  if (result.C.empty()) {
+    const Eigen::Index n = result.K[0].matrix.cols();
+    result.C.push_back({1.0, Storage(n, n), "0"});
+    result.C[0].matrix.setIdentity();
+  }
+  return result;
 }
 
-std::vector<Effect> effects_of_equations(const Equations& p) {
-  const auto count = [](const Polynomial& polynomial) {
-    return polynomial.is_zero() ? 0 : polynomial.powers;
+/// `first`: the key of the matrix that gives the size n. `constraints`: rows of the matrix are constraints.
+template <class Storage>
+void check_shape(const FamilyReader& reader, const Terms<Storage>& terms, const std::string& key,
+                 Eigen::Index n, const std::string& first, bool constraints) {
+  for (const AffineTerm<Storage>& term : terms) {
+    const Storage& matrix = term.matrix;
+    const std::string which = term.name.empty() ? "" : " (/" + key + "/" + term.name + ")";
+    const bool square = constraints || matrix.rows() == n;
+    if (matrix.cols() != n || !square || matrix.rows() != terms[0].matrix.rows()) {
+      const std::string size = "is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols());
+      if (key == first && &term == &terms[0]) reader.fail(key, size + "; expected a square matrix" + which);
+      reader.fail(key, size + ", " + first + " is " + std::to_string(n) + " x " + std::to_string(n) + "; " +
+                           (constraints ? "A needs as many columns, and the same rows for every power"
+                                        : "all have the same size") +
+                           which);
+    }
+    if (!has_finite_entries(matrix)) reader.fail(key, "has an entry that is not finite" + which);
+  }
+}
+
+std::vector<Effect> effects_of(const Equations<Matrix>& p) {
+  const auto count = [](const DenseTerms& terms) {
+    const bool is_zero =
+        std::all_of(terms.begin(), terms.end(), [](const auto& term) { return term.matrix.isZero(0.0); });
+    return is_zero ? 0 : static_cast<int>(terms.size());
   };
   if (p.first_order) {
     return {{"M", "mass matrix", 0, {.inertia = true}},
@@ -270,52 +338,78 @@ std::vector<Effect> effects_of_equations(const Equations& p) {
             {"constraints", "constraint matrix", 0, {.constraint = true}}};
   }
   return {{"M", "mass matrix, polynomial in the traced parameter", count(p.M), {.inertia = true}},
-          {"C", "damping and gyroscopic matrix", count(p.C), damping_parts(p.C.terms)},
-          {"K", "stiffness matrix", count(p.K), stiffness_parts(p.K.terms)},
+          {"C", "damping and gyroscopic matrix", count(p.C), damping_parts(p.C)},
+          {"K", "stiffness matrix", count(p.K), stiffness_parts(p.K)},
           {"A", "constraint matrix", count(p.A), {.constraint = true}}};
+}
+/// Those of the family itself.
+std::vector<Effect> effects_of(const Equations<SparseMatrix>&) {
+  return {};
+}
+
+template <class Storage>
+std::unique_ptr<Model> family_of(FamilyReader& reader, Equations<Storage> p, std::vector<std::string> names) {
+  reader.reject_unused_factors();
+  if (reader.table.has("state_names")) names = reader.table.texts("state_names");
+  reader.table.finish();
+  const std::string first = p.first_order ? "A" : p.M.empty() ? "K" : "M";
+  const Eigen::Index n = (p.M.empty() ? p.K : p.M)[0].matrix.rows();
+  if (n == 0 || n > max_rows<Storage>)
+    reader.fail(first,
+                "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_rows<Storage>));
+  const std::string fault = fault_of_names(names, n);
+  if (!fault.empty()) reader.fail("state_names", fault);
+  std::vector<std::pair<const Terms<Storage>*, std::string>> all{
+      {&p.M, "M"}, {&p.C, p.first_order ? "E" : "C"}, {&p.K, p.first_order ? "A" : "K"}, {&p.A, "A"}};
+  // The matrix that gives the size is the first to be checked.
+  std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one.second == first; });
+  for (const auto& [terms, key] : all) check_shape(reader, *terms, key, n, first, terms == &p.A);
+  ModelDescription description = describe_states(n, names);
+  for (Eigen::Index i = 0; !p.A.empty() && i < p.A[0].matrix.rows(); ++i)
+    description.constraint_names.push_back("A row " + std::to_string(i + 1));
+  description.parameters = reader.scene.parameters;
+  description.unused_parameters = unused_parameters(reader.scene, reader.draft.used);
+  description.effects = effects_of(p);
+  return std::make_unique<AffineFamily<Storage>>(std::move(description), std::move(p));
+}
+
+/// The family of the matrices in a file or in memory.
+template <class Storage, class Source>
+std::unique_ptr<Model> family_in(FamilyReader& reader, const Source& source, const std::string& name,
+                                 std::vector<std::string> state_names) {
+  for (const char* key : {"M", "C", "K", "A", "E"}) {
+    if (reader.table.has(key)) reader.fail(key, "the matrices stand here or in the file, not both");
+  }
+  Equations<Storage> p = equations_in<Storage>(reader, source, "file");
+  if (p.K.empty() || (p.M.empty() && p.C.empty()))
+    reader.fail("file", name + " has no dataset /K/0, or neither /M/0 nor /C/0");
+  return family_of(reader, std::move(p), std::move(state_names));
 }
 
 }  // namespace
 
 std::unique_ptr<Model> read_matrix_family(const Scene& scene, const ModelRequest& request) {
   FamilyReader reader(scene, request);
-  Equations p;
-  if (reader.table.has("file")) {
-    if (auto sparse = read_file(reader, p)) return sparse;
-  } else if (reader.table.has("factors")) {
-    reader.fail("factors", "are those of matrices in a file; name it: file = \"...\"");
-  } else {
-    p = equations_in(reader, reader.table, "E");
+  TableReader& table = reader.table;
+  if (!table.has("file")) return family_of(reader, equations_in<Matrix>(reader, table, "E"), {});
+  const std::string name = table.text("file");
+  if (const auto in_memory = scene.matrices.find(name); in_memory != scene.matrices.end()) {
+    if (reader.has_factors()) reader.fail("factors", "are those of matrices in a file, not in memory");
+    return family_in<Matrix>(reader, in_memory->second, name, {});
   }
-  if (reader.table.has("state_names")) p.state_names = reader.table.texts("state_names");
-  reader.table.finish();
-
-  const std::string first = p.first_order ? "A" : p.M.empty() ? "K" : "M";
-  const Eigen::Index n = (p.M.empty() || p.first_order ? p.K : p.M).terms[0].matrix.rows();
-  if (n == 0 || n > max_size) {
-    reader.fail(first, "has " + std::to_string(n) + " rows; expected 1 to " + std::to_string(max_size));
+  try {
+    const Hdf5File file = open_beside_scene(scene, table);
+    const std::string fault = unknown_member(file, {"M", "C", "K", "A", "E", "state_names"});
+    if (!fault.empty()) reader.fail("file", fault);
+    std::vector<std::string> names;
+    if (file.has("/state_names")) names = file.read_texts("/state_names");
+    return reader.has_factors() || has_sparse_matrices(file)
+               ? family_in<SparseMatrix>(reader, file, name, std::move(names))
+               : family_in<Matrix>(reader, file, name, std::move(names));
+  } catch (const Hdf5Error& error) {
+    reader.fail("file", error.what() + std::string("; expected matrices in datasets /M/0, /C/0, /C/1, /K/0, "
+                                                   "..., or /E/0, /A/0, ..."));
   }
-  const std::string fault = fault_of_names(p.state_names, n);
-  if (!fault.empty()) reader.fail("state_names", fault);
-  const char* damping = p.first_order ? "E" : "C";
-  const char* stiffness = p.first_order ? "A" : "K";
-  std::vector<std::pair<const Polynomial*, std::string>> all{
-      {&p.M, "M"}, {&p.C, damping}, {&p.K, stiffness}, {&p.A, "A"}};
-  // The matrix that gives the size is the first to be checked.
-  std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one.second == first; });
-  for (const auto& [polynomial, key] : all) {
-    reader.check_shape(*polynomial, key, n, first, polynomial == &p.A);
-    if (polynomial->powers > 1) reader.draft.used.insert(reader.variable);
-  }
-  ModelDescription description = describe_states(n, p.state_names);
-  for (Eigen::Index i = 0; !p.A.empty() && i < p.A.terms[0].matrix.rows(); ++i)
-    description.constraint_names.push_back("A row " + std::to_string(i + 1));
-  description.parameters = scene.parameters;
-  description.unused_parameters = unused_parameters(scene, reader.draft.used);
-  description.effects = effects_of_equations(p);
-  return std::make_unique<AffineFamily<Matrix>>(
-      std::move(description), AffinePencil<Matrix>{std::move(p.M.terms), std::move(p.C.terms),
-                                                   std::move(p.K.terms), std::move(p.A.terms)});
 }
 
 }  // namespace eigentrail

@@ -252,7 +252,7 @@ HDF5 = [
     unreadable("records in place of numbers", "records.h5", "/K/0"),
     unfit("nan in a file", "nan.h5", "K: has an entry that is not finite"),
     unfit("infinity in a file", "infinite.h5", "M: has an entry that is not finite"),
-    in_file("power in letters", "power.h5", "dataset /K/two: expected a power from 0 to"),
+    in_file("power in letters", "power.h5", "matrix /K/two: neither a power of the parameter"),
     in_file("negative power", "negative.h5", "dataset /K/-1: expected a power from 0 to"),
     in_file("power beyond all use", "high.h5", "dataset /K/10000: expected a power from 0 to"),
     in_file("misspelt group", "misspelt.h5", "unknown 'm' in it", "did you mean 'M'?"),
