@@ -18,11 +18,11 @@ constexpr double loosely_settled = 1e-6;
 constexpr double still_shrinking = 0.7;
 /// As a share of the reach, and of mu: longer moves are shortened.
 constexpr double longest_move = 0.5;
-/// Steps of the way down to the real axis: first share of it, and least one.
-constexpr double first_share = 0.02;
-constexpr double least_share = 1e-4;
-/// Largest growth of a step on that way.
-constexpr double growth = 1.6;
+/// Steps of the way to the real axis or away from it, as shares of it: the first, the least, and how much
+/// longer each may be than the one before.
+constexpr double first_way = 0.125;
+constexpr double least_way = 1e-5;
+constexpr double growth = 2.0;
 /// An eigenvalue counts as followed if its correction is at most this share of its distance from the other
 /// one, and of what it moved.
 constexpr double certain = 0.2;
@@ -146,15 +146,13 @@ std::optional<ExceptionalPoint> find_exceptional_point(const ReducedPencil& penc
     if (move > settled_move && !at_rounding) continue;
     // The next root of the critical value of f over mu, by its curvature.
     const Complex curvature = f.hh - f.muh * f.muh / f.mumu;
-    return ExceptionalPoint{h, mu, -2.0 * f.h / f.mumu, h - 2.0 * f.h / curvature};
+    return ExceptionalPoint{h, mu, -2.0 * f.h / f.mumu, h - 2.0 * f.h / curvature, -f.muh / f.mumu};
   }
   return std::nullopt;
 }
 
 std::optional<Complex> mean_at(const ReducedPencil& pencil, Chart chart, double from, Complex h,
                                std::array<Complex, 2> mu) {
-  constexpr double first_way = 0.125;
-  constexpr double least_way = 1e-3;
   constexpr double enough = 0.9;  // of the way: close to an exceptional point only the mean is smooth
   FollowedTwo two(pencil);
   const Complex way = h - from;
@@ -188,38 +186,37 @@ std::optional<std::array<EigenvalueBelow, 2>> eigenvalues_below(const ReducedPen
                                                                 const ExceptionalPoint& point) {
   FollowedTwo two(pencil);
   const Complex down(0.0, -point.h.imag());
-  const auto apart = [&](double share) { return std::sqrt(point.slope * share * down); };
-  double share = first_share, step = first_share, before_share = 0.0;
-  std::array<Complex, 2> mu{point.mu + apart(share), point.mu - apart(share)}, before{point.mu, point.mu};
-  bool at_start = true;
-  while (true) {
-    const double other = std::abs(mu[0] - mu[1]);
-    const double last_move = share < 1.0 ? on_the_way * other : 0.0;
-    const auto found = two.at(PencilAt(pencil, chart, point.h + share * down, 0), mu,
-                              (at_start ? 0.5 : certain) * other, last_move);
-    if (found && share >= 1.0)
-      return std::array<EigenvalueBelow, 2>{EigenvalueBelow{(*found)[0], two.vector(0)},
-                                            EigenvalueBelow{(*found)[1], two.vector(1)}};
-    if (found) {
-      at_start = false;
-      before = *found;
-      before_share = share;
-      step *= growth;
-      share = std::min(1.0, share + step);
-    } else if (at_start && share > least_share * first_share) {
-      share *= 0.25;
-      step = share;
-      mu = {point.mu + apart(share), point.mu - apart(share)};
+  // The mean of the two, and the square of half their distance: both are smooth on the way, unlike the two.
+  // By the share of the way: value, slope and second derivative.
+  Eigen::Vector2cd value(point.mu, 0.0);
+  Eigen::Vector2cd slope = Eigen::Vector2cd(point.mean_slope, point.slope) * down;
+  Eigen::Vector2cd bend(0.0, 2.0 * point.slope / (point.h - point.next) * down * down);
+  double share = 0.0, step = first_way;
+  while (step > least_way) {
+    const double next = std::min(share + step, 1.0), moved = next - share;
+    const Eigen::Vector2cd expected = value + moved * (slope + 0.5 * moved * bend);
+    const Complex half = std::sqrt(expected[1]);
+    const double apart = 2.0 * std::abs(half);
+    const auto found =
+        two.at(PencilAt(pencil, chart, point.h + next * down, 0), {expected[0] + half, expected[0] - half},
+               certain * apart, next < 1.0 ? on_the_way * apart : 0.0);
+    if (!found) {
+      step = 0.5 * moved;
       continue;
-    } else {
-      step *= 0.5;
-      if (at_start || step < least_share * before_share) return std::nullopt;
-      share = before_share + step;
     }
-    // The distance from the double eigenvalue grows like the square root of the way, at first.
-    const double ratio = std::sqrt(share / before_share);
-    for (std::size_t k = 0; k < 2; ++k) mu[k] = point.mu + ratio * (before[k] - point.mu);
+    const auto [a, b] = *found;
+    if (next == 1.0)
+      return std::array<EigenvalueBelow, 2>{EigenvalueBelow{a, two.vector(0)},
+                                            EigenvalueBelow{b, two.vector(1)}};
+    const Eigen::Vector2cd here(0.5 * (a + b), 0.25 * (a - b) * (a - b));
+    const Eigen::Vector2cd change = 2.0 * ((here - value) / moved - slope);  // of the slope, as on a parabola
+    bend = change / moved;
+    slope += change;
+    value = here;
+    share = next;
+    step *= growth;
   }
+  return std::nullopt;
 }
 
 }  // namespace eigentrail

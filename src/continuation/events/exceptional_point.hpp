@@ -29,6 +29,7 @@ struct ExceptionalPoint {
   /// close to each other where the two modes hardly influence each other; they are one place where the
   /// eigenvalues only coincide.
   Complex next;
+  Complex mean_slope = 0.0;  ///< of (mu_a + mu_b) / 2 over h
 };
 
 /// Newton's method from (h, mu). `reach`: largest |h - start| of iterates. `known`: exceptional points of the

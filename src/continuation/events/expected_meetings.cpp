@@ -140,10 +140,24 @@ struct BranchSeries {
   ComplexVector left, right;
 };
 
+/// Whether the gap of two eigenvalue branches is no power series at an end of a step, because one of them
+/// meets another eigenvalue of its block there: it varies like a root.
+bool is_singular_at(const PathNode& node, const EigenvalueBranch& a, const EigenvalueBranch& b) {
+  for (const EigenvalueBranch* branch : {&a, &b}) {
+    const std::vector<int>& met = node.tracks[branch->track].met;
+    const std::vector<int> own = a.track == b.track ? united(a.members, b.members) : branch->members;
+    const auto is_own = [&](int i) { return contains(own, i); };
+    if (std::any_of(met.begin(), met.end(), is_own) && !std::all_of(met.begin(), met.end(), is_own))
+      return true;
+  }
+  return false;
+}
+
 /// Series of the gap of two eigenvalue branches at one end, from their own series there; empty when it is not
 /// known.
 ComplexVector gap_at(const PathNode& node, const EigenvalueBranch& a, const ComplexVector& series_a,
                      const EigenvalueBranch& b, const ComplexVector& series_b) {
+  if (is_singular_at(node, a, b)) return {};
   if (a.track == b.track) return discriminant_of(node.tracks[a.track], a.members, b.members);
   if (series_a.size() == 0 || series_b.size() == 0) return {};
   return discriminant_series(series_a, series_b);
@@ -176,6 +190,16 @@ Rectangle surroundings(double off_axis) {
   return {0.5 * (from + to), 0.5 * (to - from), off_axis + margin_of_region};
 }
 
+/// Distance up to which the last term of a series is at most that share of the largest one.
+double told_within(const ComplexVector& series) {
+  const Eigen::Index last = series.size() - 1;
+  double distance = 0.0;
+  for (Eigen::Index k = 0; k < last; ++k)
+    distance = std::max(distance, std::pow(told_by_series * std::abs(series[k] / series[last]),
+                                           1.0 / static_cast<double>(last - k)));
+  return distance;
+}
+
 /// Roots of the gap near a step, as distances from its left end: from the interpolant of the series at both
 /// ends, or from one series where only that is known.
 std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& right, double length,
@@ -183,8 +207,10 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   if (left.size() == 0 && right.size() == 0) return {};
   if (left.size() == 0 || right.size() == 0) {
     const ComplexVector& gap = left.size() == 0 ? right : left;
-    if (stays_away(gap, length, width)) return {};
+    const double told = told_within(gap);
+    if (stays_away(gap, length, width) || has_no_root_within(gap, told)) return {};
     std::vector<Complex> roots = polynomial_roots(gap);
+    std::erase_if(roots, [&](Complex root) { return std::abs(root) > told; });
     for (Complex& root : roots) root += left.size() == 0 ? length : 0.0;
     return roots;
   }
@@ -192,28 +218,16 @@ std::vector<Complex> gap_roots(const ComplexVector& left, const ComplexVector& r
   const double widest = (1.0 + told_by_series) * width / std::abs(length);
   Rectangle step = surroundings(widest);
   const double middle = std::exchange(step.center, 0.0).real();
-  if (has_no_root_in(gap.series(middle, gap.degree()).row(0).transpose(), step)) return {};
-  std::vector<Complex> roots =
-      chebyshev_roots(chebyshev_coefficients([&](double t) { return gap(t)[0]; }, gap.degree()));
+  const ComplexVector series = gap.series(middle, gap.degree()).row(0).transpose();
+  if (has_no_root_in(series, step)) return {};
+  std::vector<Complex> roots = polynomial_roots(series);
+  for (Complex& root : roots) root += middle;
   std::erase_if(roots, [&](Complex t) {
     const double share = gap.last_share(0, t);
     return share > told_by_series || std::abs(t.imag() * length) > (1.0 + share) * width;
   });
   for (Complex& root : roots) root *= length;
   return roots;
-}
-
-/// Whether the gap of two eigenvalue branches is no power series at an end of a step, because one of them
-/// meets another eigenvalue of its block there: it varies like a root.
-bool is_singular_at(const PathNode& node, const EigenvalueBranch& a, const EigenvalueBranch& b) {
-  for (const EigenvalueBranch* branch : {&a, &b}) {
-    const std::vector<int>& met = node.tracks[branch->track].met;
-    const std::vector<int> own = a.track == b.track ? united(a.members, b.members) : branch->members;
-    const auto is_own = [&](int i) { return contains(own, i); };
-    if (std::any_of(met.begin(), met.end(), is_own) && !std::all_of(met.begin(), met.end(), is_own))
-      return true;
-  }
-  return false;
 }
 
 struct RoughRoot {
@@ -339,10 +353,7 @@ std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNod
       const std::size_t before = meetings.size();
       for (const Complex root : gap_roots(at_left, at_right, length, width)) expect(b, a, root);
       if (meetings.size() > before) continue;
-      const auto hint = [&, &a = a, &b = b](const PathNode& node, const ComplexVector& gap) {
-        return is_singular_at(node, a, b) ? ComplexVector() : gap;
-      };
-      for (const RoughRoot& root : rough_roots(hint(left, at_left), hint(right, at_right), length)) {
+      for (const RoughRoot& root : rough_roots(at_left, at_right, length)) {
         if (!hints.agree(a, b, root)) continue;
         expect(b, a, root.position);
         if (meetings.size() > before) meetings.back().is_rough = true;

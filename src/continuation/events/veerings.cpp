@@ -21,8 +21,8 @@ constexpr double limit_rounding = 1e-9;
 constexpr double least_speed = 1e-3;
 /// Largest half-width of the search, in units of the range.
 constexpr double widest_search = 2.0;
-/// Largest number of exceptional points that are looked for from one prediction. Two modes that hardly
-/// influence each other have two close ones.
+/// Largest number of exceptional points that are looked for from one prediction: those of the two modes,
+/// after some of one of them with others, which may be nearer.
 constexpr int most_of_one_prediction = 3;
 /// In units of the largest half-width: how far iterates may go from the prediction.
 constexpr double reach_in_widths = 2.0;
@@ -61,7 +61,9 @@ std::optional<ReducedPencil> shortened(const ReducedPencil& pencil) {
 }
 
 /// The veerings to which Newton's method for exceptional points leads from one prediction, up to `widest` off
-/// the real axis (in the coordinate along the path).
+/// the real axis (in the coordinate along the path). Near a veering the square of the distance of the two
+/// eigenvalues is a parabola: it has two roots, one on either side of the axis, or both on one side where the
+/// two hardly influence each other.
 class VeeringSearch {
  public:
   /// Those of the log are not found again. Adds to `found`, which the log refers to.
@@ -75,13 +77,14 @@ class VeeringSearch {
     if (!go_to(expected_.position.real())) return;
     std::vector<Complex> known = known_roots();
     std::optional<ExceptionalPoint> point;
-    for (int i = 0; i < most_of_one_prediction; ++i) {
+    int own = 0;
+    for (int i = 0; i < most_of_one_prediction && own < 2; ++i) {
       point = point ? next_to(*point, known) : from_prediction(known);
       if (!point) break;
       known.push_back(point->h);
-      keep(*point);
+      if (keep(*point)) ++own;
     }
-    if (expected_.is_rough) return;
+    if (own == 2 || expected_.is_rough) return;
     if (const auto mirrored = on_other_side()) keep(*mirrored);
   }
 
@@ -197,8 +200,8 @@ class VeeringSearch {
     return other && std::abs(other->h - point.h) * std::abs(search_.frame().speed(*node_)) <= same;
   }
 
-  /// Adds the veering of an exceptional point, if it is one and certain.
-  void keep(const ExceptionalPoint& point) {
+  /// Adds the veering of an exceptional point, if it is one and certain. False if it is of other modes.
+  bool keep(const ExceptionalPoint& point) {
     const double speed = search_.frame().speed(*node_);
     Event event;
     event.kind = EventKind::veering;
@@ -210,19 +213,21 @@ class VeeringSearch {
     const bool counts = std::abs(point.h.imag()) <= widest_ &&
                         event.half_width >= narrowest * search_.frame().range.length() &&
                         0.5 * std::abs(point.next - point.h) > double_root * std::abs(point.h.imag());
-    if (!here || !counts || !is_certain(point)) return;
+    if (!here || !counts || !is_certain(point)) return true;
     const auto below = eigenvalues_below(pencil(), chart(), point);
-    if (!below) return;
+    if (!below) return true;
     event.modes = modes_of(*below, t);
-    if (event.modes.size() != 2) return;
+    if (event.modes.size() != 2) return true;
+    const bool is_own = event.modes == modes_;
     event.s = chart_value(0.5 * ((*below)[0].mu + (*below)[1].mu), chart());
     if (event.s.imag() < 0.0) event.s = std::conj(event.s);
     event.node = search_.node;
-    if (search_.log.has(event)) return;
+    if (search_.log.has(event)) return is_own;
     const ComplexMatrix shape = node_->basis.shapes((*below)[0].z, track().pair.part);
     keep_shape(*node_, track().pair.part, shape.col(0), event);
     keep_sensitivities_of_mean(*below, t, event);
     found_.events.push_back(std::move(event));
+    return is_own;
   }
 
   /// The derivatives of the mean of both eigenvalues, as one block at the real axis. The place is complex:
