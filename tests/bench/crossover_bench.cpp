@@ -11,10 +11,8 @@
 namespace eigentrail::test {
 namespace {
 
-constexpr double traced_tolerance = 1e-6;
-
 Setting family(AffinePencil<SparseMatrix> pencil, double to, int modes) {
-  TraceSetup setup = large_setup(std::move(pencil), 0.0, to, modes, traced_tolerance);
+  TraceSetup setup = large_setup(std::move(pencil), 0.0, to, modes, 1e-6);
   Setting setting;
   setting.scene = std::move(setup.scene);
   setting.options = std::move(setup.options);

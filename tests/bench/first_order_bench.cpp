@@ -15,8 +15,8 @@ namespace {
 
 using Normal = std::normal_distribution<double>;
 
-constexpr double tolerance = 1e-8;
-constexpr double target = 1.3;
+constexpr double first_order_tolerance = 1e-8;
+constexpr double largest_ratio = 1.3;
 
 /// Pairs of families with the same eigenvalues for p from 0 to `to`.
 struct Kind {
@@ -51,13 +51,13 @@ Family second_order(const Kind& kind, int n, std::mt19937_64& engine) {
   const Matrix Q = random_rotation(n, engine);
   const Vector squares = Vector::LinSpaced(n, 3.0, 3.0 + 1.3 * (n - 1)).cwiseAbs2();
   const Matrix S = random_matrix(n, engine), G = random_matrix(n, engine), D = random_matrix(n, engine);
-  Matrix damping = 0.05 * Matrix::Identity(n, n);
-  if (kind.heavy) damping = 0.5 * Matrix::Identity(n, n) + 1.5 * D * D.transpose() / n;
-  if (kind.circulatory) damping = 0.5 * Matrix::Identity(n, n) + 0.3 * D;
+  Matrix C = 0.05 * Matrix::Identity(n, n);
+  if (kind.heavy) C = 0.5 * Matrix::Identity(n, n) + 1.5 * D * D.transpose() / n;
+  if (kind.circulatory) C = 0.5 * Matrix::Identity(n, n) + 0.3 * D;
   Matrix stiffness = 4.0 * (S + S.transpose());
   if (kind.circulatory) stiffness += 4.0 * (G + D - G.transpose() - D.transpose());
   return {{Matrix::Identity(n, n)},
-          {damping, 0.3 * (G - G.transpose())},
+          {C, 0.3 * (G - G.transpose())},
           {Q * squares.asDiagonal() * Q.transpose(), stiffness}};
 }
 
@@ -106,7 +106,7 @@ Pair pair_of(const Kind& kind, int n, unsigned seed) {
 
 double seconds_per_point(const Setting& setting, bool certify, int& points) {
   TraceOptions options = setting.options;
-  options.tolerance = tolerance;
+  options.tolerance = first_order_tolerance;
   options.certify = certify;
   const TimedTrace timed = time_trace(setting, options);
   points = static_cast<int>(timed.result.nodes);
@@ -125,7 +125,7 @@ Figure ratio_of(const Kind& kind, int n, unsigned seed, bool certify, const Benc
   return {"first order of " + std::to_string(2 * n) + " states / second order of " + std::to_string(n) +
               ", all modes, time per point, certificate " + (certify ? "on" : "off") + ", " + kind.name +
               ", seed " + std::to_string(seed),
-          rounds.ratio(0, 1), certify ? std::optional(at_most(target)) : std::nullopt,
+          rounds.ratio(0, 1), certify ? std::optional(at_most(largest_ratio)) : std::nullopt,
           time_text(rounds.seconds(0)) + ", " + std::to_string(first_points) + " points / " +
               time_text(rounds.seconds(1)) + ", " + std::to_string(second_points) + " points"};
 }

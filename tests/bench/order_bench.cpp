@@ -11,7 +11,7 @@
 namespace eigentrail::test {
 namespace {
 
-struct Named {
+struct NamedFamily {
   std::string name;
   Setting setting;
 };
@@ -20,8 +20,8 @@ Setting few_of(int n, const std::string& modes) {
   return gyroscopic_family(n, 7, {{"modes", modes}});
 }
 
-std::vector<Named> settings(bool smoke) {
-  std::vector<Named> list;
+std::vector<NamedFamily> settings(bool smoke) {
+  std::vector<NamedFamily> list;
   list.push_back({"pendulum", scene_setting("pendulum")});
   if (smoke) return list;
   for (const char* name : {"rotating_mass", "spring_pendulum", "ziegler_column"})
