@@ -24,10 +24,10 @@ constexpr double not_by_error = 1e-2;
 
 /// Work is counted in multiplications at the speed of an LU, of which 1e9 take about 0.3 s on a processor of
 /// 2020. The certificate may take so many in any case, most of them in proportion to the share of the range.
-/// Beyond, it may take this share of all other work.
+/// Beyond, it may take this share of all other work: a trace takes up to one and a half times as long.
 constexpr double free_work = 2.5e9;
 constexpr double free_at_start = 0.1;
-constexpr double share_of_work = 0.36;
+constexpr double share_of_work = 0.5;
 /// The same for what it may take in vain, for tracks that it does not certify: where it seldom closes it is
 /// given up earlier. A larger share certifies a few more steps of sensitive eigenvalues, at a high price.
 constexpr double free_in_vain = 1e9;
