@@ -44,6 +44,8 @@ Scaling fan_lin_van_dooren(const Values& M, const Values& C, const Values& K) {
     scaling.gamma = std::sqrt(k / m);
   } else if (m > 0.0 && c > 0.0) {
     scaling.gamma = c / m;
+  } else if (c > 0.0 && k > 0.0) {
+    scaling.gamma = k / c;
   }
   const double sum = k + c * scaling.gamma;
   if (sum > 0.0) scaling.delta = 2.0 / sum;

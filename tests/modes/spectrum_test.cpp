@@ -187,6 +187,16 @@ std::vector<Complex> block_eigenvalues(const InvariantPair& pair) {
   return {values.begin(), values.end()};
 }
 
+/// Without a mass the unit of time is that of K over C: what counts as zero must not depend on it.
+TEST(Spectrum, FirstOrderEquationsHaveTheScaleOfTheirUnit) {
+  const Matrix none = Matrix::Zero(3, 3), E = Matrix::Identity(3, 3);
+  const Matrix A{{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, -4.0, -0.1}};  // a zero beside an oscillation
+  const double in_seconds = compute_spectrum(none, E, -A).scale;
+  EXPECT_NEAR(in_seconds, A.norm() / E.norm(), 1e-14 * in_seconds);
+  for (const double unit : {1e-6, 1e6})
+    EXPECT_NEAR(compute_spectrum(none, E, -unit * A).scale, unit * in_seconds, 1e-14 * unit * in_seconds);
+}
+
 TEST(InvariantSubspace, HoldsTheEigenvaluesNearestToACentre) {
   // Clusters of two and three in a spectrum of twelve; six iterations separate what is ten times farther
   // away.

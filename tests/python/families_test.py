@@ -145,7 +145,6 @@ class Functions(unittest.TestCase):
         with self.assertRaisesRegex(et.SceneError, "traced only"):
             et.map(et.Family(quadratic), omega=(0, 1), d=(0, 1))
 
-
     def test_rigid_motions_of_states_are_followed_together(self):
         # Two free motions are a fourfold zero of the states, known to the root of rounding.
         for seed in range(6):
