@@ -10,6 +10,7 @@
 #include "eigentrail/scene/limits.hpp"
 #include "model/affine_factor.hpp"
 #include "model/beside_scene.hpp"
+#include "model/compressed_rows.hpp"
 #include "model/draft.hpp"
 #include "model/expression_terms.hpp"
 #include "model/family_tables.hpp"
@@ -34,12 +35,6 @@ bool has_finite_entries(const Matrix& matrix) {
 }
 bool has_finite_entries(const SparseMatrix& matrix) {
   return Eigen::Map<const Vector>(matrix.valuePtr(), matrix.nonZeros()).allFinite();
-}
-
-/// Whether a matrix of the file is sparse: a group with the datasets data, indices and indptr, as
-/// scipy.sparse.csr_matrix.
-bool is_compressed(const Hdf5File& file, const std::string& path) {
-  return file.has(path + "/indptr");
 }
 
 bool has_sparse_matrices(const Hdf5File& file) {
@@ -192,7 +187,10 @@ class FamilyReader {
   template <class Storage>
   Storage matrix(const Hdf5File& file, const std::string& path) {
     if constexpr (is_sparse<Storage>) {
-      if (is_compressed(file, path)) return compressed_rows(file, path);
+      if (is_compressed(file, path)) {
+        count(compressed_numbers(file, path));
+        return read_compressed_rows(file, path, max_rows<Storage>, table);
+      }
     }
     const Shape shape = file.shape(path);
     if (shape.size() != 2 || shape[0] > max_rows<Storage> || shape[1] > max_rows<Storage>)
@@ -212,46 +210,6 @@ class FamilyReader {
   [[noreturn]] void fail_size(const std::string& path) const {
     fail("file", "dataset " + path + ": expected a matrix of at most " + std::to_string(max_rows<Storage>) +
                      " rows" + (is_sparse<Storage> ? ", or a group with data, indices and indptr" : ""));
-  }
-
-  SparseMatrix compressed_rows(const Hdf5File& file, const std::string& path) {
-    for (const char* part : {"/data", "/indices"}) {
-      if (!file.has(path + part))
-        fail("file", "matrix " + path + " has no dataset" + std::string(part).replace(0, 1, " ") +
-                         "; a sparse matrix has data, indices and indptr, as scipy.sparse.csr_matrix");
-    }
-    const Shape starts_shape = file.shape(path + "/indptr"), data_shape = file.shape(path + "/data");
-    if (starts_shape.size() != 1 || starts_shape[0] < 2 || data_shape.size() != 1 ||
-        file.shape(path + "/indices") != data_shape)
-      fail("file", "matrix " + path +
-                       ": expected lists data and indices of one length, and indptr with one entry "
-                       "more than there are rows");
-    if (starts_shape[0] - 1 > max_rows<SparseMatrix>) fail_size<SparseMatrix>(path);
-    count(data_shape[0]);
-    const auto n = static_cast<Eigen::Index>(starts_shape[0] - 1);
-    const std::vector<double> data = file.read_real(path + "/data");
-    const std::vector<std::int64_t> indices = file.read_integers(path + "/indices");
-    const std::vector<std::int64_t> starts = file.read_integers(path + "/indptr");
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(data.size());
-    for (Eigen::Index row = 0; row < n; ++row) {
-      const auto r = static_cast<std::size_t>(row);
-      if (starts[0] != 0 || starts[r + 1] < starts[r] ||
-          starts[r + 1] > static_cast<std::int64_t>(data.size()))
-        fail("file", "matrix " + path + ": indptr does not ascend from 0 to the length of data at row " +
-                         std::to_string(row + 1));
-      for (auto at = static_cast<std::size_t>(starts[r]); at < static_cast<std::size_t>(starts[r + 1]);
-           ++at) {
-        if (indices[at] < 0 || indices[at] >= n)
-          fail("file", "matrix " + path + ": row " + std::to_string(row + 1) + " has an entry in column " +
-                           std::to_string(indices[at]) + " (from 0); it is square with " + std::to_string(n) +
-                           " columns");
-        entries.emplace_back(row, static_cast<Eigen::Index>(indices[at]), data[at]);
-      }
-    }
-    SparseMatrix result(n, n);
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
   }
 
   /// Counts the numbers of all matrices, zeros of dense ones included.
