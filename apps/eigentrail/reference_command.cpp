@@ -54,7 +54,7 @@ void add_operating_ranges(EffectHelp& help) {
 }
 
 EffectHelp events_help() {
-  EffectHelp help{"events", "what counts as a special point beside stability, collisions and veerings", {}};
+  EffectHelp help{"events", "what counts as a special point beside stability and collisions", {}};
   for (const EventKindInfo& kind : event_kinds()) {
     const EventRequest& request = kind.request;
     if (request.key.empty()) continue;
@@ -64,6 +64,9 @@ EffectHelp events_help() {
     if (request.of_excitation) add_operating_ranges(help);
   }
   help.fields.push_back({"extrema", "true or false", "locate extrema of damping ratios", "false"});
+  help.fields.push_back({"veerings", "true or false",
+                         "locate veerings; without them, traces of many close modes take a third less time",
+                         "true"});
   return help;
 }
 

@@ -22,9 +22,9 @@ struct EventOptions {
   /// The excitation frequency in rad/s as a function of the parameters' SI values; present if a multiple of
   /// it is requested.
   std::optional<Expression> excitation = {};
-  bool extrema = false;            ///< whether extrema of the damping ratio are searched for
-  bool veerings = true;            ///< the same for veerings; not an option of a scene
-  bool other_paths = true;         ///< the same for the paths that cross at a branch point
+  bool extrema = false;     ///< whether extrema of the damping ratio are searched for
+  bool veerings = true;     ///< the same for veerings
+  bool other_paths = true;  ///< the same for the paths that cross at a branch point; not an option of a scene
   OperatingRanges operating = {};  ///< from which critical speeds must stay away
 
   /// The values requested of one kind.

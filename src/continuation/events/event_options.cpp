@@ -136,6 +136,7 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
   }
   options.operating = read_operating_ranges(table, is_excited);
   if (table.has("extrema")) options.extrema = table.flag("extrema");
+  if (table.has("veerings")) options.veerings = table.flag("veerings");
   table.finish();
   return options;
 }

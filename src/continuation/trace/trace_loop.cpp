@@ -567,6 +567,8 @@ bool TraceLoop::leaves_path_at(const PathNode& node) const {
 void TraceLoop::log(FoundEvents found) {
   const std::size_t before = state_.events.size();
   if (state_.result.notes.size() >= most_notes) found.notes.clear();
+  if (!options_.events.veerings)  // narrow ones are met without a search
+    std::erase_if(found.events, [](const Event& event) { return event.kind == EventKind::veering; });
   record(log_, std::move(found), state_.events, state_.result.notes);
   for (std::size_t i = before; i < state_.events.size(); ++i) {
     for (Event& event : with_copies(state_.copies, state_.events[i]))
