@@ -37,11 +37,15 @@ bool has_finite_entries(const SparseMatrix& matrix) {
   return Eigen::Map<const Vector>(matrix.valuePtr(), matrix.nonZeros()).allFinite();
 }
 
+std::string path_of(const std::string& key, const std::string& name) {
+  return "/" + key + "/" + name;
+}
+
 bool has_sparse_matrices(const Hdf5File& file) {
-  for (const char* key : {"/M", "/C", "/K", "/E", "/A"}) {
-    if (!file.has(key)) continue;
-    for (const std::string& name : file.members(key)) {
-      if (is_compressed(file, std::string(key) + "/" + name)) return true;
+  for (const std::string key : {"M", "C", "K", "E", "A"}) {
+    if (!file.has("/" + key)) continue;
+    for (const std::string& name : file.members("/" + key)) {
+      if (is_compressed(file, path_of(key, name))) return true;
     }
   }
   return false;
@@ -85,8 +89,7 @@ class FamilyReader {
   Terms<Storage> terms(const Source& source, const std::string& key) {
     Terms<Storage> result;
     for (const std::string& name : names_in(source, key)) {
-      const std::string path = "/" + key + "/" + name;
-      result.push_back({factor(path, name), matrix<Storage>(source, path), name});
+      result.push_back({factor(key, name), matrix<Storage>(source, key, name), name});
     }
     return result;
   }
@@ -157,7 +160,8 @@ class FamilyReader {
     return power_of_parameter(variable_, power);
   }
 
-  Expression factor(const std::string& path, const std::string& name) {
+  Expression factor(const std::string& key, const std::string& name) {
+    const std::string path = path_of(key, name);
     if (const std::optional<int> power = power_in(name)) {
       if (*power < 0 || *power > max_power)
         fail("file", "dataset " + path + ": expected a power from 0 to " + std::to_string(max_power));
@@ -174,10 +178,10 @@ class FamilyReader {
   }
 
   template <class Storage>
-  Storage matrix(const MatricesInMemory& matrices, const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    const MatrixInMemory& view = matrices.at(path.substr(1, slash - 1)).at(path.substr(slash + 1));
-    if (view.rows > max_rows<Storage> || view.columns > max_rows<Storage>) fail_size<Storage>(path);
+  Storage matrix(const MatricesInMemory& matrices, const std::string& key, const std::string& name) {
+    const MatrixInMemory& view = matrices.at(key).at(name);
+    if (view.rows > max_rows<Storage> || view.columns > max_rows<Storage>)
+      fail_size<Storage>(path_of(key, name));
     count(static_cast<std::size_t>(view.rows * view.columns));
     using Strides = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
     return Eigen::Map<const Matrix, 0, Strides>(view.data, view.rows, view.columns,
@@ -185,7 +189,8 @@ class FamilyReader {
   }
 
   template <class Storage>
-  Storage matrix(const Hdf5File& file, const std::string& path) {
+  Storage matrix(const Hdf5File& file, const std::string& key, const std::string& name) {
+    const std::string path = path_of(key, name);
     if constexpr (is_sparse<Storage>) {
       if (is_compressed(file, path)) {
         count(compressed_numbers(file, path));
@@ -269,7 +274,7 @@ void check_shape(const FamilyReader& reader, const Terms<Storage>& terms, const 
                  Eigen::Index n, const std::string& first, bool constraints) {
   for (const AffineTerm<Storage>& term : terms) {
     const Storage& matrix = term.matrix;
-    const std::string which = term.name.empty() ? "" : " (/" + key + "/" + term.name + ")";
+    const std::string which = term.name.empty() ? "" : " (" + path_of(key, term.name) + ")";
     const bool square = constraints || matrix.rows() == n;
     if (matrix.cols() != n || !square || matrix.rows() != terms[0].matrix.rows()) {
       const std::string size = "is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols());

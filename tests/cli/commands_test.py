@@ -178,17 +178,6 @@ class Events(CommandTest):
     def events(self):
         return list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
 
-    def test_veerings_are_listed_unless_the_scene_does_without(self):
-        for coupling in (3e-3, 1e-6):  # half the width of the veering; the second one is met by the trace itself
-            with self.subTest(coupling):
-                scene = CROSSING.replace("K = [[[1, 0], [0, 2]]", f"K = [[[1, {coupling}], [{coupling}, 2]]")
-                self.trace(scene, "--force")
-                veering, = self.events()
-                self.assertEqual(veering["kind"], "veering")
-                self.assertAlmostEqual(float(veering["parameter"]), 0.5, delta=1e-9)
-                self.trace(scene + "[events]\nveerings = false\n", "--force")
-                self.assertEqual(self.events(), [])
-
     def test_csv_has_the_promised_header_and_a_row_per_event(self):
         self.trace(BIRTH)
         self.assertEqual(self.run_well("events", "loci.h5", "--csv").splitlines()[0], "kind,parameter,real,imag,modes")

@@ -55,6 +55,19 @@ class Trace(CommandTest):
                     parts["lift_lag"] = 40
                 self.assertEqual(counts, {name: number * passes for name, number in parts.items()})
 
+    def test_veerings_are_listed_unless_the_scene_does_without(self):
+        def events(scene):
+            self.trace(scene, "--force")
+            return list(csv.DictReader(io.StringIO(self.run_well("events", "loci.h5", "--csv"))))
+
+        for coupling in (3e-3, 1e-6):  # half the width of the veering; the second one is met by the trace itself
+            with self.subTest(coupling):
+                scene = CROSSING.replace("K = [[[1, 0], [0, 2]]", f"K = [[[1, {coupling}], [{coupling}, 2]]")
+                veering, = events(scene)
+                self.assertEqual(veering["kind"], "veering")
+                self.assertAlmostEqual(float(veering["parameter"]), 0.5, delta=1e-9)
+                self.assertEqual(events(scene + "[events]\nveerings = false\n"), [])
+
     def test_critical_speeds_near_an_operating_range_are_named(self):
         scene = edited((SCENES / "overhung_disc.toml").read_text(encoding="utf-8"), 'excitation = "omega"', "operating_range = [400, 520]\n§")
         near = "critical speed 2x at omega = 557.174: 7.15 % from the operating range 400 to 520, {} % wanted"

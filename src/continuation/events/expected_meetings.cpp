@@ -190,7 +190,7 @@ Rectangle surroundings(double off_axis) {
   return {0.5 * (from + to), 0.5 * (to - from), off_axis + margin_of_region};
 }
 
-/// Distance up to which the last term of a series is at most that share of the largest one.
+/// Distance up to which the last term of a series is at most the share `told_by_series` of the largest one.
 double told_within(const ComplexVector& series) {
   const Eigen::Index last = series.size() - 1;
   double distance = 0.0;
