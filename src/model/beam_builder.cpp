@@ -1,5 +1,6 @@
 #include "model/beam_builder.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,10 @@ namespace {
 /// Points per element and station at which the mass is integrated: exact for products of quadratic shape
 /// functions with mass that is linear between stations, if elements are straight.
 constexpr int mass_points = 2;
+/// Least mass of a node, in proportion to what it has if each half of an element is shared linearly; two
+/// thirds in a uniform beam. Less would be a node that moves in frequencies of its own, far above those of
+/// the mesh.
+constexpr double least_mass = 0.01;
 constexpr int most_elements = 2000;
 
 class BeamBuilder {
@@ -55,18 +60,79 @@ class BeamBuilder {
 
   /// Every node has the integral of its shape function over the mass: the mass matrix is lumped. The errors
   /// of eigenvalues are of order 2 degree, as with the full matrix, since the nodes are those of
-  /// Gauss-Lobatto quadrature (Fried & Malkus 1975).
+  /// Gauss-Lobatto quadrature (Fried & Malkus 1975). The parabola of an end node is negative on the far half
+  /// of the element. Where the mass there outweighs its own, as at the thin tip of a blade, the node would
+  /// have a negative mass, and modes of a passive beam would grow. A part of such elements is then shared
+  /// linearly by the nodes of each half, which changes neither mass nor centre: as small a part as will do.
   std::vector<BeamTable::Mass> nodal_masses() const {
+    std::vector<double> linear(static_cast<std::size_t>(axis_.elements), 0.0);
+    const std::vector<BeamTable::Mass> masses = nodal_masses(linear);
+    if (axis_.degree == 1) return masses;
+    const std::vector<BeamTable::Mass> by_halves = nodal_masses(std::vector<double>(linear.size(), 1.0));
+    for (int e = 0; e <= axis_.elements; ++e) {
+      const std::size_t node = axis_.node(e, 0);
+      const double least = least_ratio(masses[node], by_halves[node]);
+      const double part = (least_mass - least) / (1.0 - least);
+      for (int beside = std::max(e - 1, 0); beside <= std::min(e, axis_.elements - 1); ++beside) {
+        double& of_element = linear[static_cast<std::size_t>(beside)];
+        of_element = std::max(of_element, part);
+      }
+    }
+    const bool positive = *std::max_element(linear.begin(), linear.end()) == 0.0;
+    return positive ? masses : nodal_masses(linear);
+  }
+
+  /// Least eigenvalue of the moments of a node in proportion to others, wherever the request checks them.
+  double least_ratio(const BeamTable::Mass& moments, const BeamTable::Mass& others) const {
+    std::array<std::vector<double>, 6> own, scale;
+    for (std::size_t k = 0; k < 6; ++k) {
+      own[k] = draft_.check_values(moments[k]);
+      scale[k] = draft_.check_values(others[k]);
+    }
+    const auto matrix = [](const std::array<std::vector<double>, 6>& at, std::size_t i) {
+      const auto& [m, y, z, yy, zz, yz] = at;
+      return Eigen::Matrix3d{{m[i], y[i], z[i]}, {y[i], yy[i], yz[i]}, {z[i], yz[i], zz[i]}};
+    };
+    double least = 1.0;
+    for (std::size_t i = 0; i < own[0].size(); ++i) {
+      // Directions without mass are in both; the same rounding is added to both.
+      const Eigen::Vector3d size = matrix(scale, i).diagonal().cwiseSqrt();
+      const Eigen::Vector3d unit = (size.array() > 0.0).select(size.cwiseInverse(), 1.0);
+      const auto scaled = [&](const auto& at) -> Eigen::Matrix3d {
+        return Eigen::Matrix3d(unit.asDiagonal() * matrix(at, i) * unit.asDiagonal()) +
+               1e-12 * Eigen::Matrix3d::Identity();
+      };
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled(own), scaled(scale),
+                                                                             Eigen::EigenvaluesOnly);
+      least = std::min(least, solver.eigenvalues()[0]);
+    }
+    return least;
+  }
+
+  /// Shares of the nodes of an element in the mass at xi, of which `linear` is shared by halves.
+  std::vector<double> mass_shares(double xi, double linear) const {
+    std::vector<double> shares = shape_functions(axis_.degree, xi).value;
+    if (linear == 0.0) return shares;
+    const double from_middle = 2.0 * xi - 1.0;
+    const std::array by_halves = {std::max(0.0, -from_middle), 1.0 - std::abs(from_middle),
+                                  std::max(0.0, from_middle)};
+    for (std::size_t a = 0; a < 3; ++a) shares[a] += linear * (by_halves[a] - shares[a]);
+    return shares;
+  }
+
+  std::vector<BeamTable::Mass> nodal_masses(const std::vector<double>& linear) const {
     std::vector<std::vector<double>> share(static_cast<std::size_t>(axis_.nodes()),
                                            std::vector<double>(design_.sections.span.size(), 0.0));
     std::vector<BeamTable::Mass> result(static_cast<std::size_t>(axis_.nodes()));
     for (int e = 0; e < axis_.elements; ++e) {
-      for_each_mass_point(e, [&](double xi, double weight) {
-        const ShapeFunctions shape = shape_functions(axis_.degree, xi);
-        const Expression stretch = axis_.straight ? Expression(1.0) : axis_.stretch(e, shape);
-        for (std::size_t a = 0; a < shape.value.size(); ++a) {
+      const double by_halves = linear[static_cast<std::size_t>(e)];
+      for_each_mass_point(e, by_halves > 0.0, [&](double xi, double weight) {
+        const std::vector<double> of_node = mass_shares(xi, by_halves);
+        const Expression stretch =
+            axis_.straight ? Expression(1.0) : axis_.stretch(e, shape_functions(axis_.degree, xi));
+        for (std::size_t a = 0; a < of_node.size(); ++a) {
           for (const auto& [station, part] : design_.sections.shares((e + xi) / axis_.elements)) {
-            const double w = weight * shape.value[a] * part;
+            const double w = weight * of_node[a] * part;
             if (axis_.straight)
               share[axis_.node(e, a)][station] += w;
             else
@@ -88,15 +154,17 @@ class BeamBuilder {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + weight * moments[i];
   }
 
-  /// Calls visit(xi, weight) for the points of the parts of an element between stations.
+  /// Calls visit(xi, weight) for the points of the parts of an element between stations, and its middle if it
+  /// is taken by halves.
   template <class Visit>
-  void for_each_mass_point(int e, Visit visit) const {
-    std::vector<double> ends = {0.0};
+  void for_each_mass_point(int e, bool by_halves, Visit visit) const {
+    std::vector<double> ends = {0.0, 1.0};
+    if (by_halves) ends.push_back(0.5);
     for (const double s : design_.sections.span) {
       const double xi = s * axis_.elements - e;
       if (xi > 1e-9 && xi < 1.0 - 1e-9) ends.push_back(xi);
     }
-    ends.push_back(1.0);
+    std::sort(ends.begin(), ends.end());
     for (std::size_t i = 1; i < ends.size(); ++i) {
       const double width = ends[i] - ends[i - 1];
       for (const auto& [at, weight] : gauss_points(mass_points))

@@ -138,7 +138,7 @@ std::vector<BeamTable::Stiffness> full_stiffness(Draft& draft, TableReader& tabl
 }
 
 /// Moments of the mass about the axis. Without inertias the mass is spread as the stiffness is: m EI/EA.
-std::vector<BeamTable::Mass> read_mass(StationColumns& columns,
+std::vector<BeamTable::Mass> read_mass(const Draft& draft, const TableReader& table, StationColumns& columns,
                                        const std::vector<BeamTable::Stiffness>& stiffness) {
   const Column product = columns.optional("inertia_product", "kg m");
   const Column mass = columns.required("mass", "kg/m", Range::positive);
@@ -157,6 +157,13 @@ std::vector<BeamTable::Mass> read_mass(StationColumns& columns,
   const Column lag = inertia("inertia_lag", 5);
   std::vector<BeamTable::Mass> moments;
   for (std::size_t i = 0; i < mass.size(); ++i) {
+    const std::vector<double> squares = draft.check_values(product[i] * product[i]);
+    const std::vector<double> most = draft.check_values(flap[i] * lag[i]);
+    for (std::size_t p = 0; p < squares.size(); ++p) {
+      if (squares[p] > most[p] * (1.0 + 1e-12))
+        table.fail("inertia_product", "no section has it: its square exceeds inertia_flap times inertia_lag" +
+                                          Draft::where_on_trace(p));
+    }
     moments.push_back({mass[i], mass[i] * y[i], mass[i] * z[i], lag[i] + mass[i] * y[i] * y[i],
                        flap[i] + mass[i] * z[i] * z[i], product[i] + mass[i] * y[i] * z[i]});
   }
@@ -183,7 +190,7 @@ BeamTable read_beam_table(Draft& draft, TableReader& table, const std::optional<
     result.stiffness = stiffness_columns(table, columns);
   else
     result.stiffness = engineering_stiffness(columns, blade_length);
-  result.mass = read_mass(columns, result.stiffness);
+  result.mass = read_mass(draft, table, columns, result.stiffness);
   for (const char* key : {"sweep", "prebend"}) {
     if (columns.has(key) && columns.stations() < 2) table.fail(key, "needs stations; give span as well");
     result.straight = result.straight && !columns.has(key);
