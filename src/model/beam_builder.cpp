@@ -125,9 +125,8 @@ class BeamBuilder {
                                            std::vector<double>(design_.sections.span.size(), 0.0));
     std::vector<BeamTable::Mass> result(static_cast<std::size_t>(axis_.nodes()));
     for (int e = 0; e < axis_.elements; ++e) {
-      const double by_halves = linear[static_cast<std::size_t>(e)];
-      for_each_mass_point(e, by_halves > 0.0, [&](double xi, double weight) {
-        const std::vector<double> of_node = mass_shares(xi, by_halves);
+      for_each_mass_point(e, [&](double xi, double weight) {
+        const std::vector<double> of_node = mass_shares(xi, linear[static_cast<std::size_t>(e)]);
         const Expression stretch =
             axis_.straight ? Expression(1.0) : axis_.stretch(e, shape_functions(axis_.degree, xi));
         for (std::size_t a = 0; a < of_node.size(); ++a) {
@@ -154,17 +153,15 @@ class BeamBuilder {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + weight * moments[i];
   }
 
-  /// Calls visit(xi, weight) for the points of the parts of an element between stations, and its middle if it
-  /// is taken by halves.
+  /// Calls visit(xi, weight) for the points of the parts of an element between stations.
   template <class Visit>
-  void for_each_mass_point(int e, bool by_halves, Visit visit) const {
-    std::vector<double> ends = {0.0, 1.0};
-    if (by_halves) ends.push_back(0.5);
+  void for_each_mass_point(int e, Visit visit) const {
+    std::vector<double> ends = {0.0};
     for (const double s : design_.sections.span) {
       const double xi = s * axis_.elements - e;
       if (xi > 1e-9 && xi < 1.0 - 1e-9) ends.push_back(xi);
     }
-    std::sort(ends.begin(), ends.end());
+    ends.push_back(1.0);
     for (std::size_t i = 1; i < ends.size(); ++i) {
       const double width = ends[i] - ends[i - 1];
       for (const auto& [at, weight] : gauss_points(mass_points))
