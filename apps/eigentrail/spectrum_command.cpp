@@ -92,19 +92,20 @@ void print_point(const ShownPoint& point) {
   titles.insert(titles.end(),
                 {"natural, Hz", "damped, Hz", "damping", "decrement", "condition", "what moves"});
   std::vector<std::vector<std::string>> rows{titles};
-  std::vector<std::size_t> growing, undecided;
+  std::vector<std::size_t> growing, undecided, unknown;
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
     rows.push_back(table_row(point, i));
     const double real = without_rounding(point.modes[i]).real();
     if (std::abs(real) <= point.error(i) && point.error(i) > 0.0) {
       undecided.push_back(i + 1);
     } else if (real > 0.0) {
-      growing.push_back(i + 1);
+      (std::isfinite(point.modes[i].rounding) ? growing : unknown).push_back(i + 1);
     }
   }
   print_table(rows);
   if (!point.note.empty()) std::printf("  note  %s\n", point.note.c_str());
   print_modes("modes that grow", growing);
+  print_modes("modes of which rounding leaves undecided whether they grow", unknown);
   print_modes("modes of which the errors of the data leave undecided whether they grow", undecided);
 }
 

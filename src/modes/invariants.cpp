@@ -76,13 +76,17 @@ double least_gap(const ComplexVector& roots) {
   return gap;
 }
 
+/// Relative error of Lambda by rounding.
+constexpr double roundings = 1e-15;
+
 Vector function_rounding(const ComplexMatrix& Lambda) {
-  constexpr double roundings = 1e-15;  // relative error of Lambda by rounding
   return function_rounding(Lambda, roundings * Lambda.norm());
 }
 
 Vector function_rounding(const ComplexMatrix& Lambda, double error) {
   const Eigen::Index k = Lambda.rows();
+  // Eigenvalues of larger blocks are those of Lambda plus a rounding error of it.
+  if (k > 2) error = std::max(error, roundings * Lambda.norm());
   Vector rounding = Vector::Constant(k <= 2 ? k : k * k, error);
   if (k == 2) rounding[1] *= (Lambda - 0.5 * Lambda.trace() * ComplexMatrix::Identity(2, 2)).norm();
   return rounding;
