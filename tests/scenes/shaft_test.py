@@ -1,5 +1,5 @@
 """Shafts of beam elements against closed forms: a shaft on pins that spins (Timoshenko), its convergence, the slender limit,
-a Jeffcott rotor with internal damping, and an overhung disc."""
+a Jeffcott rotor with internal damping, an overhung disc, and a shaft that nothing holds."""
 
 import math
 import re
@@ -239,6 +239,31 @@ class OverhungDisc(RotorTest):
 
 # Friswell, Penny, Garvey & Lees, Dynamics of Rotating Machines, 2010, example 5.9.1. The numbers are those of the matrices that
 # ROSS (petrobras/ross at 631a249a) makes of the same rotor, at 4000 rpm and where the frequency is once the speed, rad/s.
+class FreeShaft(RotorTest):
+    """Nothing holds it. Its stiffness exceeds its slow motions so far that they are known to a few digits only."""
+    LENGTHS, OUTER = (0.23, 0.042, 0.18, 0.047), (0.207, 0.169, 0.042, 0.014)
+
+    def test_precession_and_no_instability_but_rounding(self):
+        text = PINNED.format(length=list(self.LENGTHS), outer=list(self.OUTER), inner=[0] * 4, to=1, elements=1, refined="false", last=5)
+        text = text[:text.index("[[support]]")].replace("modes = 8", 'modes = "all"') + "internal_damping = 1.6e-7\n"
+        self.write("scene.toml", text)
+        summary = self.run_well("trace", "scene.toml", "-o", "loci.h5")
+        for word in ("flutter", "divergence", "unstable", "Re s of mode"):
+            self.assertNotIn(word, summary)
+        # Slow as a rigid body: it precesses at the speed times the moment about the axis over that about a diameter.
+        ends = np.concatenate([[0.0], np.cumsum(self.LENGTHS)])
+        masses = DENSITY * math.pi / 4.0 * np.square(self.OUTER) * self.LENGTHS
+        polar = masses * np.square(self.OUTER) / 8.0
+        middle = 0.5 * (ends[1:] + ends[:-1])
+        centre = masses @ middle / masses.sum()
+        diametral = polar / 2.0 + masses * (np.square(self.LENGTHS) / 12.0 + (middle - centre)**2)
+        speeds, s = self.nodes(self.folder / "loci.h5")
+        precession = polar.sum() / diametral.sum()
+        for speed, row in zip(speeds[1:], s[1:]):
+            found = min(row[~np.isnan(row)], key=lambda one: abs(one.imag - precession * speed))
+            self.assertAlmostEqual(found.imag, precession * speed, delta=1e-6 * precession * speed + 2e-6)
+
+
 class TwoDiscs(RotorTest):
     scene = "two_disc_rotor"
 
