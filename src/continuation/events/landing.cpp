@@ -355,7 +355,8 @@ std::optional<LandedStep> land(StepSolver& solver, Step step, bool on_any_terms)
   std::optional<Step> cut = landing.take_cut();
   landed.step = cut ? std::move(*cut) : std::move(step);
   for (const MeetingOnEnd& meeting : landed.meetings) landed.step.meeting.push_back(meeting.track);
-  if (!on_any_terms && overlooks_collision(landed.step)) return std::nullopt;
+  if (!on_any_terms && overlooks_collision(landed.step, solver.points().problem().thresholds.rounding))
+    return std::nullopt;
   return landed;
 }
 

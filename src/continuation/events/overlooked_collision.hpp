@@ -3,11 +3,12 @@
 #pragma once
 
 #include "continuation/step/step.hpp"
+#include "eigentrail/continuation/thresholds.hpp"
 
 namespace eigentrail {
 
 /// Whether a block that meets nowhere on the step, and not at its right end, has more real eigenvalues at one
-/// end than at the other. Blocks in which some cannot be told apart at an end are left out.
-bool overlooks_collision(const Step& step);
+/// end than at the other. Blocks in which rounding hides which are real at an end are left out.
+bool overlooks_collision(const Step& step, const RoundingThresholds& thresholds);
 
 }  // namespace eigentrail
