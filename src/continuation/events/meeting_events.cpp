@@ -48,6 +48,16 @@ int direction_off_axis(const Event& event, int cycle) {
   return square > 0.0 ? 1 : square < 0.0 ? -1 : 0;
 }
 
+/// Whether a collision tells which way its eigenvalues part: by the Puiseux coefficient they leave their
+/// error on the range. Those of rigid-body motions, which are known to a root of rounding, do not.
+bool parts_visibly(const EventSearch& search, const Track& track, const Meeting& meeting) {
+  const double farthest = std::abs(meeting.puiseux) * std::pow(search.frame().coordinate_range(),
+                                                               1.0 / static_cast<double>(meeting.cycle));
+  const Vector errors = rounding_of_roots(track, search.thresholds().rounding);
+  return std::all_of(meeting.members.begin(), meeting.members.end(),
+                     [&](int i) { return farthest > errors[i]; });
+}
+
 /// The event of a meeting; empty where no modes take part or the meeting is not an event.
 std::optional<Event> event_of(const EventSearch& search, const PathNode& node, const MeetingOnEnd& found) {
   const Track& track = node.tracks[found.track];
@@ -71,7 +81,7 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   event.s = place_of(track, meeting, is_pair, search.thresholds().rounding.entries * track.pair.rounding);
   event.modes = modes;
   if (event.kind == EventKind::veering) event.half_width = std::abs(speed) * meeting.half_width;
-  if (event.kind == EventKind::collision) {
+  if (event.kind == EventKind::collision && parts_visibly(search, track, meeting)) {
     const double exponent = 1.0 / static_cast<double>(meeting.cycle);
     event.puiseux = meeting.puiseux / std::pow(Complex(speed), exponent);
     if (track.pair.chart == Chart::reciprocal) event.puiseux *= -event.s * event.s;
