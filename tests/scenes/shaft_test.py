@@ -263,6 +263,19 @@ class FreeShaft(RotorTest):
             found = min(row[~np.isnan(row)], key=lambda one: abs(one.imag - precession * speed))
             self.assertAlmostEqual(found.imag, precession * speed, delta=1e-6 * precession * speed + 2e-6)
 
+    def test_in_one_bearing(self):
+        """It turns about the bearing freely: whether the two zeros of that are a pair is rounding, and asks for no short steps. Every
+        other mode is damped, so that nothing grows."""
+        for node in (1, 3):
+            text = PINNED.format(length=1.0, outer=0.05, inner=0, to=500, elements=4, refined="false", last=5)
+            text = text[:text.index("[[support]]")].replace("modes = 8", 'modes = "all"')
+            self.write("scene.toml", text + "[[disc]]\nnode = 4\nmass = 10\nId = 0.1\nIp = 0.18\n"
+                                            f"[[bearing]]\nnode = {node}\nkxx = 1e7\nkyy = 2e7\ncxx = 1e3\n")
+            summary = self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force")
+            self.assertNotIn("unstable", summary)
+            self.assertIn("stable  speed = 0 -> 500", summary)
+            self.assertLess(len(self.nodes(self.folder / "loci.h5")[0]), 50)
+
 
 class TwoDiscs(RotorTest):
     scene = "two_disc_rotor"
