@@ -276,6 +276,14 @@ class FreeShaft(RotorTest):
             self.assertIn("stable  speed = 0 -> 500", summary)
             self.assertLess(len(self.nodes(self.folder / "loci.h5")[0]), 50)
 
+    def test_spectrum_claims_no_growth_that_is_rounding(self):
+        """A short shaft with a flywheel in one soft bearing: rounding of its stiffness hides what its rigid-body motions do."""
+        text = PINNED.format(length=[0.09277, 0.03521], outer=[0.02142, 0.1239], inner=[0, 0.06195], to=1, elements=2, refined="false",
+                             last=5)
+        self.write("scene.toml", text[:text.index("[[support]]")] + "axial = true\n[[bearing]]\nnode = 5\nkxx = 12550\nkyy = 1.032e7\n"
+                                                                    "kxy = 323895\nkyx = 323895\ncxx = 292.7\ncyy = 246.6\n")
+        self.assertNotIn("modes that grow", self.run_well("spectrum", "scene.toml", "--modes", "all"))
+
 
 class TwoDiscs(RotorTest):
     scene = "two_disc_rotor"
