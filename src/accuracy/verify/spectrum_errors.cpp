@@ -9,14 +9,15 @@
 namespace eigentrail {
 namespace {
 
-/// The eigenvalues, and of pairs within rounding of the real axis both members: two equal real eigenvalues
-/// may come as such a pair. Of two that may be one, which rounding has split, their mean as well: it is known
-/// to rounding, they only to its root.
-std::vector<Complex> with_double_roots(const std::vector<Complex>& exact) {
+/// The eigenvalues, and of pairs within rounding of the real axis, or zero to `zero`, both members: two equal
+/// real eigenvalues may come as such a pair. Of two that may be one, which rounding has split, their mean as
+/// well: it is known to rounding, they only to its root.
+std::vector<Complex> with_double_roots(const std::vector<Complex>& exact, double zero) {
   constexpr double rounding_of_double_root = 1e-7;  // root of rounding times a few
   std::vector<Complex> result = exact;
   for (const Complex s : exact) {
-    if (s.imag() != 0.0 && std::abs(s.imag()) <= rounding_of_double_root * std::abs(s))
+    if (s.imag() != 0.0 &&
+        (std::abs(s) <= zero || std::abs(s.imag()) <= rounding_of_double_root * std::abs(s)))
       result.push_back(std::conj(s));
   }
   const std::size_t all = result.size();
@@ -67,7 +68,8 @@ Vector eigenvalue_errors(const RecordedPath& path, const PathPosition& position,
 Vector discrepancies(const RecordedPath& path, const PathPosition& position, const ComplexVector& s,
                      const std::vector<Complex>& exact, const EigenvalueAccuracy& accuracy) {
   const std::vector<bool> alone(static_cast<std::size_t>(s.size()), false);
-  const Vector distances = distances_from_spectrum(s, alone, with_double_roots(exact), accuracy.reference);
+  const Vector distances = distances_from_spectrum(
+      s, alone, with_double_roots(exact, accuracy.tolerance * accuracy.reference), accuracy.reference);
   const Vector promised = accuracy.tolerance * s.cwiseAbs().cwiseMax(accuracy.reference);
   const Vector errors = eigenvalue_errors(path, position, s, accuracy.tolerance, accuracy);
   Vector result = distances;
