@@ -3,10 +3,10 @@
 #include "fuzz/entry.hpp"
 #include "import/blade_files.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto try_as = [text = eigentrail::fuzz::as_text(data, size)](auto parse) {
+EIGENTRAIL_FUZZ(blade) {
+  const auto try_as = [bytes](auto parse) {
     try {
-      (void)parse(text, "a.dat");
+      (void)parse(bytes, "a.dat");
     } catch (const eigentrail::InputError&) {
     }
   };
@@ -14,5 +14,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try_as(eigentrail::parse_elastodyn_rotor);
   try_as(eigentrail::parse_beamdyn_blade);
   try_as(eigentrail::parse_beamdyn_axis);
-  return 0;
 }

@@ -6,10 +6,9 @@
 #include "fuzz/entry.hpp"
 #include "import/dmig.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+EIGENTRAIL_FUZZ(dmig) {
   try {
-    for (const eigentrail::DmigMatrix& matrix :
-         eigentrail::parse_dmig(eigentrail::fuzz::as_text(data, size), "a.pch")) {
+    for (const eigentrail::DmigMatrix& matrix : eigentrail::parse_dmig(bytes, "a.pch")) {
       std::vector<eigentrail::DmigFreedom> freedoms;
       for (const eigentrail::DmigEntry& entry : matrix.entries) {
         freedoms.push_back(entry.row);
@@ -22,5 +21,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   } catch (const eigentrail::InputError&) {
   } catch (const std::invalid_argument&) {
   }
-  return 0;
 }

@@ -18,15 +18,13 @@ void evaluate(const Expression& expression) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text = fuzz::as_text(data, size);
-  (void)unit_factor(text);
+EIGENTRAIL_FUZZ(expression) {
+  (void)unit_factor(bytes);
   try {
-    const Expression expression = Expression::parse(text, {"a", "b_1", "omega"});
+    const Expression expression = Expression::parse(bytes, {"a", "b_1", "omega"});
     evaluate<double>(expression);
     evaluate<Series<double, 3>>(expression);
     evaluate<double>(sqrt(expression * expression + sin(expression)) / (expression - 1.0));
   } catch (const ExpressionError&) {
   }
-  return 0;
 }

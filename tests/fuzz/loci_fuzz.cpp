@@ -35,9 +35,9 @@ void show_other(const std::string& path, const ReportBudget& budget) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+EIGENTRAIL_FUZZ(loci) {
   static const fuzz::ScratchFolder folder;
-  const std::string path = folder.write("loci.h5", data, size);
+  const std::string path = folder.write("loci.h5", bytes);
   ReportBudget budget;
   budget.roots = 4'000;  // they take twenty times as long with sanitizers
   try {
@@ -47,5 +47,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   } catch (const InputError&) {
     show_other(path, budget);
   }
-  return 0;
 }

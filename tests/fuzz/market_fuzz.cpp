@@ -4,15 +4,13 @@
 #include "import/file_table.hpp"
 #include "import/market_file.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text = eigentrail::fuzz::as_text(data, size);
+EIGENTRAIL_FUZZ(market) {
   try {
-    (void)eigentrail::parse_file_table(text, "a.csv");
+    (void)eigentrail::parse_file_table(bytes, "a.csv");
   } catch (const eigentrail::InputError&) {
   }
   try {
-    (void)eigentrail::parse_market_file(text, "a.mtx");
+    (void)eigentrail::parse_market_file(bytes, "a.mtx");
   } catch (const eigentrail::InputError&) {
   }
-  return 0;
 }

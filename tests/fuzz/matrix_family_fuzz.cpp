@@ -18,14 +18,13 @@ to = 1
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+EIGENTRAIL_FUZZ(matrix_family) {
   static const fuzz::ScratchFolder folder;
-  folder.write("family.h5", data, size);
+  folder.write("family.h5", bytes);
   try {
     const TraceSetup setup = prepare_trace(parse_scene(scene, folder.file("scene.toml")), {});
     (void)setup.model->initial_guess(setup.scene.parameters.declared_values());
     (void)setup.model->structure(setup.traced());
   } catch (const InputError&) {
   }
-  return 0;
 }

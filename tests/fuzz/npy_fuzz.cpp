@@ -3,18 +3,16 @@
 #include "fuzz/entry.hpp"
 #include "import/npy.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes = eigentrail::fuzz::as_text(data, size);
+EIGENTRAIL_FUZZ(npy) {
   try {
     (void)eigentrail::announced_npy_bytes(bytes, "A");
     eigentrail::NamedArray array = eigentrail::read_npy(bytes, "A");
     array.name = "A";
     eigentrail::NamedArray parameter{"parameter", {array.shape.empty() ? 1 : array.shape[0]}, {1}, {}, {},
                                      false};
-    if (parameter.shape[0] > 1000) return 0;
+    if (parameter.shape[0] > 1000) return;
     for (std::size_t i = 0; i < parameter.shape[0]; ++i) parameter.numbers.push_back(static_cast<double>(i));
     (void)eigentrail::from_arrays({array, parameter}, {{"a.npz"}, {}}, true);
   } catch (const eigentrail::InputError&) {
   }
-  return 0;
 }

@@ -3,11 +3,9 @@
 #include "fuzz/entry.hpp"
 #include "import/op4.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+EIGENTRAIL_FUZZ(op4) {
   try {
-    (void)eigentrail::parse_op4(eigentrail::fuzz::as_text(data, size), "a.op4",
-                                [](const std::string& name) { return name != "SKIP"; });
+    (void)eigentrail::parse_op4(bytes, "a.op4", [](const std::string& name) { return name != "SKIP"; });
   } catch (const eigentrail::InputError&) {
   }
-  return 0;
 }

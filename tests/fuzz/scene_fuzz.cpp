@@ -4,13 +4,11 @@
 
 using namespace eigentrail;
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+EIGENTRAIL_FUZZ(scene) {
   try {
-    const TraceSetup setup =
-        prepare_trace(parse_scene(std::string(fuzz::as_text(data, size)), "fuzz/scene.toml"), {});
+    const TraceSetup setup = prepare_trace(parse_scene(std::string(bytes), "fuzz/scene.toml"), {});
     (void)setup.model->initial_guess(setup.scene.parameters.declared_values());
     (void)setup.model->structure(setup.traced());
   } catch (const InputError&) {
   }
-  return 0;
 }

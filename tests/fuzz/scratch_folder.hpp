@@ -1,13 +1,12 @@
 // A folder in memory where there is one, for inputs that are read by their path.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace eigentrail::fuzz {
 
@@ -30,9 +29,8 @@ class ScratchFolder {
   std::string file(const std::string& name) const { return path_ + "/" + name; }
 
   /// Writes a file of the folder; returns its path.
-  std::string write(const std::string& name, const std::uint8_t* data, std::size_t size) const {
-    std::ofstream stream(file(name), std::ios::binary | std::ios::trunc);
-    stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  std::string write(const std::string& name, std::string_view bytes) const {
+    std::ofstream(file(name), std::ios::binary | std::ios::trunc) << bytes;
     return file(name);
   }
 
