@@ -17,6 +17,19 @@ import numpy as np
 from command_test_case import DEFAULT_TOLERANCE, CommandTest, blade_eigenvalues
 from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED, FAMILY, OTHER_KERNEL, SCENES, edited
 
+# Of two oscillators one is followed; the other one grows from p = damping / 0.2 on.
+UNFOLLOWED = """
+[trace]
+parameter = "p"
+from = 0
+to = {to}
+modes = 1
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[[0.1, 0], [0, {damping}]], [[0, 0], [0, -0.2]]]
+K = [[[1, 0], [0, 4]], [[0.1, 0], [0, 0]]]
+"""
+
 
 class Trace(CommandTest):
     def test_every_scene_of_the_project_is_explained_and_traced(self):
@@ -67,6 +80,26 @@ class Trace(CommandTest):
                 self.assertEqual(veering["kind"], "veering")
                 self.assertAlmostEqual(float(veering["parameter"]), 0.5, delta=1e-9)
                 self.assertEqual(events(scene + "[events]\nveerings = false\n"), [])
+
+    def test_mode_that_grows_on_the_first_step_is_followed_from_the_first_point_on(self):
+        """s^2 + (0.1 - 0.2 p) s + 4 = 0 is none of the modes asked for; it grows from p = 1/2 on, or from the start."""
+        for damping in (0.1, 0.0):
+            with self.subTest(damping):
+                self.trace(UNFOLLOWED.format(damping=damping, to=10.3), "--force")
+                s = self.eval_at("loci.h5", [0.0])[0]
+                np.testing.assert_allclose(s, [-0.05 + 1j * math.sqrt(1.0 - 0.0025), -damping / 2 + 1j * math.sqrt(4.0 - damping**2 / 4)],
+                                           rtol=1e-12)
+                with h5py.File(self.folder / "loci.h5") as file:
+                    self.assertFalse(np.isnan(file["eigenvalue"][:]).any())
+                for command in (["info"], ["events"], ["verify"], ["report", "-o", "page.html", "--force"]):
+                    self.run_well(command[0], "loci.h5", *command[1:])
+
+    def test_flutter_of_an_unfollowed_mode_exactly_at_a_point_is_an_event(self):
+        self.trace(UNFOLLOWED.format(damping=0.1, to=10), "--force")
+        with h5py.File(self.folder / "loci.h5") as file:
+            self.assertIn(0.5, file["p"])  # a mode that is zero there is not followed yet
+            self.assertEqual([line.split(",")[0] for line in file["events"].asstr()], ["flutter"])
+            np.testing.assert_allclose(file["event_parameter"], [0.5], rtol=1e-12)
 
     def test_critical_speeds_near_an_operating_range_are_named(self):
         scene = edited((SCENES / "overhung_disc.toml").read_text(encoding="utf-8"), 'excitation = "omega"', "operating_range = [400, 520]\n§")

@@ -53,6 +53,21 @@ TEST(HelpfulPartners, AreNoneWhereABlockIsNotBetter) {
   EXPECT_TRUE(helpful_partners(veering.planted.family.problem(), rules, step, 0, 10.0, {}).empty());
 }
 
+TEST(HelpfulPartners, AreNotThoseThatTheStepDoesNotBeginWith) {
+  Veering veering(0.02);
+  Step step = veering.step(-0.08, 0.06);
+  const JoiningRules rules{1e-8, 3.0, 0.14};
+  step.right.tracks.push_back(
+      step.right.tracks[1]);  // was added at the right end, out of range at the left one
+  EXPECT_TRUE(
+      helpful_partners(veering.planted.family.problem(), rules, step, 0, 1e3, {{false, 3, 0.1}}).empty());
+  PathNode left = *step.left;
+  step.left = &left;
+  left.tracks[1].lineage = 7;  // ended on the step, and another one has its place
+  EXPECT_TRUE(
+      helpful_partners(veering.planted.family.problem(), rules, step, 0, 1e3, {{false, 1, 0.1}}).empty());
+}
+
 TEST(RegroupLimitingModes, JoinsWhatLimitsTheSteps) {
   Veering veering(0.02);
   Step step = veering.step(-0.08, -0.03);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/tracks/members.hpp"
 #include "core/bisection.hpp"
+#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {
@@ -219,6 +221,25 @@ void inherit_histories(const std::vector<Birth>& births, const std::vector<Crite
   for (const Birth& birth : births) {
     for (std::size_t c = 0; c < criteria.size(); ++c) {
       if (!criteria[c].asks_for_pairs()) histories[{birth.born, c}] = histories[{birth.parent, c}];
+    }
+  }
+}
+
+void begin_histories(const PathProblem& problem, const PathNode& node, int first, double h,
+                     const std::vector<Criterion>& criteria, CriterionHistories& histories) {
+  for (const Track& track : node.tracks) {
+    const ComplexVector before =
+        in_order_of(track.roots, block_roots(evaluate_series(track.functions, -h / samples_per_step)));
+    const Vector rounding = rounding_of_roots(track, problem.thresholds.rounding);
+    for (Eigen::Index i = 0; i < track.size(); ++i) {
+      const int mode = track.modes[static_cast<std::size_t>(i)];
+      if (mode < first || !(std::abs(before[i].real()) > rounding[i])) continue;
+      for (std::size_t c = 0; c < criteria.size(); ++c) {
+        if (criteria[c].asks_for_pairs()) continue;
+        CriterionHistory& history = histories[{mode, c}];
+        history.next(before[i].real());
+        history.is_pair(before[i].imag() != 0.0);
+      }
     }
   }
 }

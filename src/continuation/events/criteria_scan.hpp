@@ -52,6 +52,12 @@ using CriterionHistories = std::map<std::pair<int, std::size_t>, CriterionHistor
 void inherit_histories(const std::vector<Birth>& births, const std::vector<Criterion>& criteria,
                        CriterionHistories& histories);
 
+/// Begins the histories of modes, those from number `first` on, that were noticed on a step of length h and
+/// followed back to its left end, `node`: with Re s just before it, from their series. Then one that is zero
+/// at that end and grows behind it is an event.
+void begin_histories(const PathProblem& problem, const PathNode& node, int first, double h,
+                     const std::vector<Criterion>& criteria, CriterionHistories& histories);
+
 /// Samples all criteria on a step, and locates the zeros and extrema that the samples show.
 FoundEvents scan_criteria(const EventSearch& search, const Step& step, CriterionHistories& histories);
 

@@ -181,6 +181,7 @@ TraceResult TraceLoop::run() {
   if (start()) {
     prepare_to_follow();
     follow();
+    if (state_.result.nodes == 0) emit_first();  // no step was taken
   }
   return finished(options_, seconds_so_far(), state_);
 }
@@ -213,12 +214,12 @@ bool TraceLoop::start() {
   EnteringModes needed = needed_at(problem_, options_, node, state_);
   begin_here(problem_, std::move(needed.tracks), node, state_.numbers);
   number_growing_guards(problem_, node, node, state_.numbers);
-  for (Track& track : node.tracks) track.arriving = track.modes;
   growing_unfollowed_ = needed.growing;
   number_modes(state_, node);
   log(std::move(met));
-  if (!emit(node, nullptr)) return false;
+  // The point is emitted with the first step, and with the modes that this one finds missing.
   if (!state_.frame.on_branch_point(options_.from)) return true;
+  if (!emit_first()) return false;
   const bool leaves = leaves_path_at(node);
   const bool goes_on = !leaves || leave_path();
   ++state_.branches.passed;
@@ -254,7 +255,7 @@ void TraceLoop::follow() {
     // The factors are no longer needed: the next point is predicted from the series.
     for (Track& track : state_.origin.node.tracks) track.pair.factors.reset();
     result.seconds = seconds_so_far();
-    if (!observer_.checkpoint(*this)) {
+    if (result.nodes > 0 && !observer_.checkpoint(*this)) {
       stop(TraceStatus::stopped, "stopped on request at " + here);
       return;
     }
@@ -385,10 +386,13 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   Step& step = landed.step;
   TraceResult& result = state_.result;
   EnteringModes needed = needed_at(problem_, options_, step.right, state_);
+  const int first = state_.numbers.count;
   const int guards = number_growing_guards(problem_, step.right, state_.origin.node, state_.numbers);
   if (guards + follow_back(problem_, needed.tracks, step.h, step.right, reach_, state_.origin.node,
                            state_.numbers, result.counts) >
       0) {
+    if (result.nodes > 0)
+      begin_histories(problem_, state_.origin.node, first, step.h, criteria_, state_.histories);
     number_modes(state_, state_.origin.node);
     return true;  // the step is taken again, with them
   }
@@ -398,6 +402,7 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
     state_.control.reject(std::abs(step.h), INFINITY);
     return true;
   }
+  if (result.nodes == 0 && !emit_first()) return false;
   settle_events(landed);
   const PathStep stored = with_copies(state_.copies, stored_step(problem_, step, certified));
   std::vector<std::uint64_t> lineages;
@@ -574,6 +579,11 @@ void TraceLoop::log(FoundEvents found) {
     for (Event& event : with_copies(state_.copies, state_.events[i]))
       state_.result.events.push_back(std::move(event));
   }
+}
+
+bool TraceLoop::emit_first() {
+  for (Track& track : state_.origin.node.tracks) track.arriving = track.modes;
+  return emit(state_.origin.node, nullptr);
 }
 
 bool TraceLoop::emit(const PathNode& node, const PathStep* step) {

@@ -30,6 +30,14 @@ constexpr double much_shrinking = 0.1;
 constexpr double as_near = 1.5;
 constexpr Eigen::Index most_together = 16;
 
+/// Whether a track of the right end is the same one at the left end: it was not added, or taken apart, at the
+/// right end.
+bool is_on_whole_step(const Step& step, std::size_t track) {
+  const std::vector<Track>&left = step.left->tracks, &right = step.right.tracks;
+  return track < left.size() && track < right.size() && left[track].lineage == right[track].lineage &&
+         left[track].size() == right[track].size();
+}
+
 /// A track to be joined, with its partners. All choices are made before the first tracks are joined. Since
 /// joining changes the indices of the tracks, they are identified by their lineages.
 struct Choice {
@@ -72,7 +80,7 @@ std::vector<Partner> helpful_partners(const PathProblem& problem, const JoiningR
   std::vector<Partner> chosen;
   Eigen::Index size = distinct_eigenvalues(there);
   for (const Partner& candidate : candidates) {
-    if (candidate.track >= tracks.size()) break;
+    if (!is_on_whole_step(step, candidate.track)) break;
     size += distinct_eigenvalues(tracks[candidate.track]);
     if (size > largest) break;
     if (candidate.distance > as_near * candidates.front().distance) break;
@@ -92,10 +100,8 @@ Regroupings regroup_limiting_modes(const PathProblem& problem, const JoiningRule
   const bool may_look_beyond = !rules.follows_all && rules.has_shrunk(next_step);
   std::size_t worst = tracks.size();
   double largest = limiting_error;
-  for (std::size_t i = 0; i < tracks.size() && i < step.left->tracks.size(); ++i) {
-    // Tracks that were added or taken apart at the end of the step have no error on it.
-    if (tracks[i].lineage != step.left->tracks[i].lineage || tracks[i].size() != step.left->tracks[i].size())
-      continue;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (!is_on_whole_step(step, i)) continue;  // it has no error on the step
     // Blocks of different eigenvalues have been joined already; one of equal parts counts as a single mode.
     // With one that nobody follows a mode may have been joined for nothing.
     const bool is_joined = distinct_eigenvalues(tracks[i]) > 1;
