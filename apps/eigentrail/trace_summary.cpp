@@ -118,10 +118,12 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
   return found;
 }
 
-/// Also a collision on the imaginary axis, where an undamped system begins to flutter.
+/// Also a collision on the imaginary axis, where an undamped system begins to flutter. Where Re s only
+/// touches zero nothing begins.
 bool is_onset(const Event& event) {
-  return event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
-         (event.kind == EventKind::collision && event.direction != 0);
+  const bool may_be = event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
+                      event.kind == EventKind::collision;
+  return may_be && event.direction != 0;
 }
 
 /// "forward", "backward", "mixed" or "" for the mode of an event.

@@ -30,6 +30,12 @@ bool ModeChoice::wants(Complex s) const {
   return !damping_below || damping_ratio(s) < *damping_below;
 }
 
+void mark_permanent_zeros(const IndependentParts& parts, std::vector<StartingMode>& modes) {
+  for (StartingMode& mode : modes)
+    mode.is_permanent_zero =
+        parts.is_free(parts.ranges[static_cast<std::size_t>(mode.part)]) && mode.s == 0.0;
+}
+
 int choose_modes(const ModeChoice& choice, std::vector<StartingMode>& modes) {
   if (modes.empty()) return 0;
   auto end = std::stable_partition(modes.begin(), modes.end(), [&](const StartingMode& mode) {

@@ -91,6 +91,22 @@ Matrix projected(const Matrix& A, const Matrix& T, double& magnified) {
   return result;
 }
 
+/// Entries of K that are rounding of the reactions become zero: each reaction has the rounding of the largest
+/// one, and so has the stiffness that it causes. By the masses of their freedoms such entries are below
+/// rounding of the largest eigenvalue.
+void drop_rounding_of_reactions(const std::vector<Matrix>& M, std::vector<Matrix>& K) {
+  constexpr double rounding = 1e-15;
+  if (M.empty() || !(M[0].diagonal().minCoeff() > 0.0)) return;
+  const Vector scale = M[0].diagonal().cwiseSqrt().cwiseInverse();
+  double largest = 0.0;
+  for (const Matrix& A : K)
+    largest = std::max(largest, (scale.asDiagonal() * A * scale.asDiagonal()).cwiseAbs().maxCoeff());
+  for (Matrix& A : K) {
+    const Matrix sizes = scale.asDiagonal() * A.cwiseAbs() * scale.asDiagonal();
+    A = (sizes.array() > rounding * largest).select(A, 0.0);
+  }
+}
+
 std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix& T, double& magnified) {
   std::vector<Matrix> result;
   for (const Matrix& A : matrices) result.push_back(projected(A, T, magnified));
@@ -152,9 +168,9 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
                                                                const Matrix& T) {
   double magnified = 1.0;
-  const CoefficientMatrices inner{projected(coefficients.M, T, magnified),
-                                  projected(coefficients.C, T, magnified),
-                                  projected(coefficients.K, T, magnified)};
+  CoefficientMatrices inner{projected(coefficients.M, T, magnified), projected(coefficients.C, T, magnified),
+                            projected(coefficients.K, T, magnified)};
+  drop_rounding_of_reactions(inner.M, inner.K);
   const auto within = find_parts(inner, magnified);
   if (within == nullptr || !within->falls_apart()) return nullptr;
   place_in(T, *within);
@@ -172,6 +188,7 @@ std::shared_ptr<const IndependentParts> find_turning_parts(const std::vector<Pla
     inner.C.push_back(projected(places[i].C, frames[i], magnified));
     inner.K.push_back(projected(places[i].K, frames[i], magnified));
   }
+  drop_rounding_of_reactions(inner.M, inner.K);
   const auto within = find_parts(inner, magnified);
   if (within == nullptr || !within->falls_apart()) return nullptr;
   place_in(frames.back(), *within);

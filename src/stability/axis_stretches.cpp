@@ -310,8 +310,10 @@ Signs signs_of(const AxisStretch& stretch) {
 }
 
 /// Carries signs over a cut to those that are open behind it. Where modes meet the axis and do not pass it,
-/// their signs say nothing about the other side.
+/// their signs say nothing about the other side. Where the path turns or branches, one passes that is not
+/// known.
 void carry(const Signs& from, const AxisCut& cut, Signs& to) {
+  if (cut.turns) return;
   for (auto& [mode, sign] : to) {
     const auto known = from.find(mode);
     if (sign != Sign::open || known == from.end() || known->second == Sign::open) continue;

@@ -46,6 +46,61 @@ stiffness = "k"
 free_length = 1
 """
 
+SKEW = """
+x_axis = [1, 0.2, 0.1]
+y_axis = [0, 1, 0.3]
+"""
+
+# Of a body on a hinge with a torsional spring, and of one that nothing holds.
+HINGED = HEAD.replace("N/m", "N m/rad") + """
+[[body]]
+name = "door"
+mass = 1
+inertia = [0.1, 0.15, 0.2]
+position = [0, 0, 0]
+[[body]]
+name = "hull"
+mass = 1
+inertia = [0.1, 0.15, 0.2]
+position = [2, 0, 0]
+AXES
+[[revolute]]
+name = "hinge"
+from = [-0.6, 0.3, 0.6]
+to = { body = "door", at = [-0.6, 0.3, 0.6] }
+axis = [0, 0, 1]
+[[torsional_spring]]
+joint = "hinge"
+stiffness = "k"
+"""
+
+# A body on a ball joint and one spring, and a point on a spring that is constant.
+PIVOTED = HEAD + """
+[[point]]
+name = "ball"
+mass = 0.3
+position = [0, 1, 0]
+[[body]]
+name = "arm"
+mass = 1
+inertia = [0.1, 0.15, 0.2]
+position = [0, 0, 0]
+AXES
+[[spring]]
+from = [0, 0, 1]
+to = { body = "arm", at = [0.4, 0, 0] }
+stiffness = "k"
+free_length = 1
+[[spring]]
+from = "ball"
+to = "arm"
+stiffness = 50
+free_length = 1
+[[ball]]
+from = [0, 0, 0]
+to = "arm"
+"""
+
 
 def spectrum(file):
     """Eigenvalues at all nodes, and what moves in the modes."""
@@ -76,6 +131,24 @@ class FreeBodies(SceneTest):
         text = self.run_well("trace", self.folder / "scene.toml", "-o", "again.h5")
         self.assertIn("identity of modes certified on every step", text)
         self.assertIn("zero throughout", text)
+
+    def test_beside_a_body_on_a_hinge(self):
+        """Reactions have the rounding of the largest one; the stiffness that this causes holds no body."""
+        inertia = 0.2 + 0.6**2 + 0.3**2
+        for axes in ("", SKEW):
+            k, s, _ = spectrum(self.trace_text(HINGED.replace("AXES", axes), tolerance=1e-8))
+            zeros = np.all(s == 0.0, axis=0)
+            self.assertEqual(np.count_nonzero(zeros), 12)
+            np.testing.assert_allclose(s[:, ~zeros].ravel(), 1j * np.sqrt(k / inertia), rtol=1e-8)
+            listed = self.run_well("spectrum", self.folder / "scene.toml", "--modes", "all", "--csv").splitlines()[1:]
+            self.assertEqual(sum(",0,0," in line for line in listed), 12)
+
+    def test_beside_a_body_on_a_ball_joint(self):
+        for axes in ("", SKEW):
+            _, s, _ = spectrum(self.trace_text(PIVOTED.replace("AXES", axes), tolerance=1e-8))
+            self.assertEqual(s.shape[1], 10)
+            self.assertEqual(np.count_nonzero(np.all(s == 0.0, axis=0)), 8)
+            self.run_well("verify", self.folder / "loci.h5")
 
     def test_explain_names_what_is_free(self):
         (self.folder / "hull.toml").write_text(BODY.replace("CENTRE", ""))

@@ -22,6 +22,11 @@ class VerdictTest(CommandTest):
         self.run_well("trace", MODELS / f"{name}.toml", "-o", output, "--quiet", "--force", *options)
         return self.folder / output
 
+    def trace_and_read(self, scene):
+        """The summary of a trace."""
+        self.write("scene.toml", scene)
+        return self.run_well("trace", "scene.toml", "-o", "loci.h5")
+
     def info(self, file):
         return json.loads(self.run_well("info", file, "--json"))
 
@@ -187,6 +192,42 @@ class Undamped(VerdictTest):
         file = self.trace_model("indefinite_mass")
         self.assertEqual(self.events(file, "divergence", "flutter"), [])
         self.assertEqual(len(self.events(file, "collision")), 3)
+
+    def test_a_damper_that_is_idle_at_one_place_begins_no_instability(self):
+        # Two equal masses on springs k and 10, a damper between them: at k = 10 they move in step, and Re s touches zero from below.
+        summary = self.trace_and_read("""[trace]
+parameter = "k"
+from = 5
+to = 17
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[[0.5, -0.5], [-0.5, 0.5]]]
+K = [[[0, 0], [0, 10]], [[1, 0], [0, 0]]]
+""")
+        self.assertNotIn("onset of instability", summary)
+        self.assertRegex(summary, r"flutter  k = 10 .* touches the imaginary axis")
+        self.assertEqual([kind for kind, _, _ in self.ranges("loci.h5")], ["stable"])
+
+    def test_springs_that_are_lost_at_once_do_not_destabilize_what_lies_before(self):
+        # A point on three springs, 20, k and 0.8 k: no stored point lies between the crossings at 25 and 20.
+        self.trace_and_read("""[parameters]
+k = 40
+[trace]
+parameter = "k"
+from = 60
+to = -10
+[[point]]
+name = "point"
+mass = 1
+position = [0, 0, 0]
+""" + "".join(f"""[[guided_spring]]
+point = "point"
+direction = {direction}
+stiffness = {stiffness}
+""" for direction, stiffness in (([1, 0, 0], 20), ([0, 1, 0], '"k"'), ([0, 0, 1], '"0.8*k"'))))
+        (kind, begin, end), = self.ranges("loci.h5")
+        self.assertEqual((kind, begin), ("marginal", 60.0))
+        self.assertAlmostEqual(end, 0.0, delta=1e-9)
 
     def test_equal_modes_do_not_cross(self):
         self.assertEqual(self.events(self.trace_model("trifilar")), [])

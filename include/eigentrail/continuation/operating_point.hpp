@@ -30,13 +30,13 @@ struct OperatingPoint {
   double p = 0.0;
   std::string fault = {};                 ///< why there is no spectrum; empty if there is one
   bool none_in_band = false;              ///< the fault is that no mode lies in the chosen band
-  std::vector<OperatingMode> modes = {};  ///< by increasing |s|
+  std::vector<OperatingMode> modes = {};  ///< the chosen ones by increasing |s|, then others that grow
   std::string note = {};                  ///< that no mode is as wanted; empty else
 };
 
-/// The chosen modes (`modes` of the options) at values of the traced parameter, in its unit. Each equilibrium
-/// starts from the last one found. Cost: a spectrum by QZ and two LU per mode, for each
-/// value.
+/// The chosen modes (`modes` of the options), and all that grow, at values of the traced parameter, in its
+/// unit. Each equilibrium starts from the last one found. Cost: a spectrum by QZ and two LU per mode, for
+/// each value.
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values);
 
 }  // namespace eigentrail

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eigentrail/modes/spectrum.hpp"
+#include "eigentrail/reduction/independent_parts.hpp"
 
 namespace eigentrail {
 
@@ -32,6 +33,9 @@ struct ModeChoice {
   /// Whether an eigenvalue, Im s >= 0, lies in the band and is damped as little as asked for.
   bool wants(Complex s) const;
 };
+
+/// Marks eigenvalues zero of parts of one freedom that have no stiffness for any value of the parameter.
+void mark_permanent_zeros(const IndependentParts& parts, std::vector<StartingMode>& modes);
 
 /// Permanent zeros are chosen only with all modes. Brings the chosen modes of a spectrum to its front, by
 /// increasing |s|, the others behind them likewise. Where nothing lies in the band, or everything is damped

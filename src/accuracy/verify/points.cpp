@@ -29,13 +29,24 @@ ComplexVector iterated(const PathPoint& point, Complex s, double shift, const Co
   return point.basis.shapes(z, 0);
 }
 
+/// Largest magnitude of eigenvalues that a step of inverse iteration cannot tell from zero to its accuracy: K
+/// of a rigid-body motion is rounding, which has to be small against the square of the shift.
+double hidden_size(const ReducedPencil& pencil) {
+  constexpr double share = 1e-5;  // its square is far above rounding
+  const double mass = pencil.M[0].norm(), damping = pencil.C[0].norm(), stiffness = pencil.K[0].norm();
+  if (mass > 0.0) return share * std::sqrt(stiffness / mass);
+  return damping > 0.0 ? share * share * stiffness / damping : 0.0;
+}
+
 /// Whether a mode shape has unit length and is one of the eigenvalue s.
 bool is_shape(const CheckedFile& file, const PathPoint& point, Complex s, const ComplexVector& shape,
               const Vector& sizes) {
   constexpr double least_shift = 1e-5, rounding = 1e-8, least_share = 0.3;
   const double mass = mass_norm_squared(shape, point.equilibrium.linearization.M[0]);
   if (!(std::abs((mass > 0.0 ? mass : shape.squaredNorm()) - 1.0) <= rounding)) return false;
-  const double shift = std::max(least_shift, 10.0 * file.accuracy.tolerance) * file.scale_of(s);
+  const double hidden = hidden_size(point.pencil);
+  const double shift = std::max(std::max(least_shift, 10.0 * file.accuracy.tolerance) * file.scale_of(s),
+                                std::abs(s) < hidden ? hidden : 0.0);
   const ComplexVector next = iterated(point, s, shift, shape);
   if (!next.allFinite()) return true;  // the pencil is singular beside s: it is known that well
   const Complex share = shape.dot(next) / shape.squaredNorm();

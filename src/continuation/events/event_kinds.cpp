@@ -27,6 +27,10 @@ std::string stability_remark(const EventFacts& facts) {
   return turns(facts, "unstable above", "unstable below");
 }
 
+std::string axis_remark(const EventFacts& facts) {
+  return facts.direction == 0 ? "touches the imaginary axis" : stability_remark(facts);
+}
+
 std::string collision_remark(const EventFacts& facts) {
   const std::string stability = stability_remark(facts);
   Complex puiseux = facts.puiseux;
@@ -78,8 +82,8 @@ bool is_finite(double value) {
 }
 
 constexpr std::array<EventKindInfo, 13> kinds{{
-    {EventKind::flutter, "flutter", "flutter", "x", true, stability_remark},
-    {EventKind::divergence, "divergence", "divergence", "cross", true, stability_remark},
+    {EventKind::flutter, "flutter", "flutter", "x", true, axis_remark},
+    {EventKind::divergence, "divergence", "divergence", "cross", true, axis_remark},
     {EventKind::collision, "collision", "collision", "star", true, collision_remark},
     {EventKind::crossing, "crossing", "crossing", "circle-open", false, no_remark},
     {EventKind::veering, "veering", "veering", "bowtie-open", false, veering_remark},

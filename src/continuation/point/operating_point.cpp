@@ -6,6 +6,7 @@
 
 #include "continuation/point/refined_spectrum.hpp"
 #include "eigentrail/continuation/path_point.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/projection.hpp"
@@ -85,6 +86,23 @@ std::string name_by_freedoms(const Projection& projection, const ComplexVector& 
   return has_own_names(projection.names) ? largest_names(projection.basis * reduced, projection.names) : "";
 }
 
+/// Number of the first modes that are shown: those that are wanted, and those that grow. Refines them, and
+/// sets their errors by rounding.
+int refine_shown(const ReducedPencil& pencil, int wanted, Spectrum& spectrum, std::vector<double>& rounding) {
+  std::vector<StartingMode>& modes = spectrum.modes;
+  const auto others = std::stable_partition(modes.begin() + wanted, modes.end(),
+                                            [](const StartingMode& mode) { return mode.s.real() > 0.0; });
+  rounding = refine(pencil, static_cast<int>(others - modes.begin()), spectrum);
+  int shown = wanted;
+  for (std::size_t i = static_cast<std::size_t>(wanted); i < rounding.size(); ++i) {
+    if (!(modes[i].s.real() > rounding[i])) continue;
+    std::swap(modes[static_cast<std::size_t>(shown)], modes[i]);
+    std::swap(rounding[static_cast<std::size_t>(shown)], rounding[i]);
+    ++shown;
+  }
+  return shown;
+}
+
 /// `point` is computed in the coordinates in which the equations fall apart, if they do: zeros of rigid-body
 /// motions are exact there.
 OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, double p) {
@@ -97,11 +115,13 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
                        : "LAPACK's QZ did not converge";
     return result;
   }
+  if (point.basis.parts && setup.options.constant_modes == "list")
+    mark_permanent_zeros(*point.basis.parts, spectrum.modes);
   const ModeChoice& choice = setup.options.modes;
   const int wanted = choose_modes(choice, spectrum.modes);
-  const std::vector<double> rounding = refine(point.pencil, wanted, spectrum);
-  spectrum.modes.resize(static_cast<std::size_t>(wanted));
-  const bool none = spectrum.modes.size() == 1 && !choice.wants(spectrum.modes.front().s);
+  std::vector<double> rounding;
+  spectrum.modes.resize(static_cast<std::size_t>(refine_shown(point.pencil, wanted, spectrum, rounding)));
+  const bool none = wanted == 1 && !choice.wants(spectrum.modes.front().s);
   if (none && choice.band) {
     result.none_in_band = true;
     result.fault = "none of " + in_words(choice) + "; the nearest is " +
@@ -110,7 +130,8 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   }
   if (none) result.note = "none of " + in_words(choice) + "; the mode that misses this least is shown";
   const ModelDescription& description = setup.model->description();
-  const bool unconstrained = point.basis.is_identity || point.basis.parts;
+  const bool unconstrained =
+      point.basis.is_identity || (point.basis.parts && setup.model->n_constraints() == 0);
   const Linearization& physical = point.equilibrium.linearization;
   const ReducedPencil in_coordinates =
       unconstrained
@@ -119,7 +140,8 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
     const StartingMode& start = spectrum.modes[i];
     const ComplexVector shape = point.basis.shapes(start.z, start.part, start.copy).col(0);
-    const ModeAtPoint at(in_coordinates, start.s, unconstrained ? shape : start.z, spectrum.scale);
+    const ModeAtPoint at(unconstrained ? in_coordinates : in_coordinates.of(start.part), start.s,
+                         unconstrained ? shape : start.z, spectrum.scale);
     OperatingMode& mode = result.modes.emplace_back(at.mode(rounding[i]));
     mode.shape = shape.normalized();
     const Projection* projection = setup.model->projection();
@@ -168,6 +190,10 @@ std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std:
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
   problem.parts =
       find_independent_parts(setup.model->coefficient_matrices(problem.parameters, problem.traced));
+  if (SceneOnRange scene = scene_at_start(problem, setup.options); scene.rests) {
+    problem.rests = true;
+    problem.parts = std::move(scene.parts);
+  }
   RunCounts counts;
   std::vector<OperatingPoint> points;
   EquilibriumGuess guess;

@@ -81,7 +81,6 @@ class Start {
   void settle_order();
   Failure find_modes();
   Failure check_spectrum(const Spectrum& spectrum) const;
-  void mark_permanent_zeros(Spectrum& spectrum) const;
   void list_permanent_zeros(const Spectrum& spectrum);
   int structural_infinities() const;
   void settle_magnitudes(const Spectrum& spectrum);
@@ -182,7 +181,8 @@ std::optional<StartFailure> Start::find_modes() {
   result_.n_infinite = std::max(0, spectrum.n_infinite - structural_infinities());
   result_.n_available = static_cast<int>(spectrum.modes.size());
   if (auto failure = check_spectrum(spectrum)) return failure;
-  if (options_.constant_modes == "list") mark_permanent_zeros(spectrum);
+  if (problem_.parts && !pencil.parts.empty() && options_.constant_modes == "list")
+    mark_permanent_zeros(*problem_.parts, spectrum.modes);
   result_.n_modes = choose_modes(options_.modes, spectrum.modes);
   if (result_.n_modes == 1 && !options_.modes.wants(spectrum.modes.front().s))
     result_.notes.push_back("none of " + in_words(options_.modes) + where() +
@@ -204,15 +204,6 @@ std::optional<StartFailure> Start::find_modes() {
   settle_magnitudes(spectrum);
   modes_ = std::move(spectrum.modes);
   return std::nullopt;
-}
-
-/// Marks eigenvalues zero of parts of one freedom that have no stiffness for any value of the parameter.
-void Start::mark_permanent_zeros(Spectrum& spectrum) const {
-  if (!problem_.parts || point_.pencil.parts.empty()) return;
-  for (StartingMode& mode : spectrum.modes) {
-    const IndependentParts::Range& range = problem_.parts->ranges[static_cast<std::size_t>(mode.part)];
-    mode.is_permanent_zero = problem_.parts->is_free(range) && mode.s == 0.0;
-  }
 }
 
 /// What moves in a rigid-body motion, by the coordinate that moves most: a shaft as a whole, or the
