@@ -10,10 +10,10 @@
 namespace eigentrail::app {
 namespace {
 
-Scene with_settings_of(const SceneArguments& arguments, Scene scene) {
+ChangedScene with_settings_of(const SceneArguments& arguments, Scene scene) {
   ChangedScene changed = with_settings(std::move(scene), arguments.settings);
   for (const std::string& warning : changed.warnings) warn(warning);
-  return std::move(changed.scene);
+  return changed;
 }
 
 }  // namespace
@@ -106,12 +106,19 @@ void add_no_lock(CLI::App& command, SaveOptions& saving) {
 }
 
 Scene given_scene(const SceneArguments& arguments) {
-  return with_settings_of(arguments, read_scene(arguments.scene));
+  return with_settings_of(arguments, read_scene(arguments.scene)).scene;
 }
 
 TraceSetup given_setup(const SceneArguments& arguments, Scene scene, Purpose purpose) {
-  TraceSetup setup =
-      prepare_trace(with_settings_of(arguments, std::move(scene)), arguments.overrides(), purpose);
+  ChangedScene changed = with_settings_of(arguments, std::move(scene));
+  TraceSetup setup = prepare_trace(std::move(changed.scene), arguments.overrides(), purpose);
+  const std::string& traced = setup.options.parameter;
+  if (std::ranges::find(changed.names, traced) != changed.names.end()) {
+    if (purpose == Purpose::operating_point)
+      setup.options.from = setup.scene.parameters.declared_values()[setup.traced()];
+    else
+      warn("--set " + traced + ": has no effect: its values are those of the trace");
+  }
   warn_of_unused(setup.scene, *setup.model);
   return setup;
 }

@@ -157,7 +157,7 @@ void add_spectrum(CLI::App& program, int& exit_code) {
   command->add_option(
       "--at", arguments->at,
       "parameter values, in the parameter's unit: 40, 10,20, 0:5:40 (begin:step:end), \"100 rpm\"; "
-      "default: where the trace begins");
+      "default: the value of --set, or where the trace begins");
   add_overrides(*command, *arguments, {"parameter", "modes", "without"});
   add_formats(*command, arguments->format, "print a line per mode");
   command->footer(

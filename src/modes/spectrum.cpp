@@ -186,12 +186,38 @@ Eigenvalues<Complex> qr(ComplexMatrix& a) {
   return info == 0 ? std::optional(std::move(all)) : std::nullopt;
 }
 
+/// Coordinates T, x = T y, of which the last have no mass, where M is singular without having such
+/// coordinates: those of a part are combinations of all. Empty where M is regular, or has them. Sets `rank`.
+template <class Values>
+std::optional<Values> massless_last(const Values& M, Eigen::Index& rank) {
+  constexpr double no_mass = 1e-13;  // of the largest, in balanced units
+  const Equilibration<Values> equal(M);
+  Eigen::ColPivHouseholderQR<Values> qr(equal.of(M).adjoint());
+  qr.setThreshold(no_mass);
+  rank = qr.rank();
+  const Eigen::Index with_mass = (M.cwiseAbs().colwise().maxCoeff().array() > 0.0).count();
+  if (rank >= with_mass) return std::nullopt;
+  return Values(equal.columns.asDiagonal() * Values(qr.householderQ()));
+}
+
 template <class Values>
 Eigenvalues<typename Values::Scalar> by_qz(const Values& M, const Values& C, const Values& K,
                                            bool with_vectors) {
   Values a, b;
-  linearize(M, C, K, a, b);
-  return qz(a, b, with_vectors);
+  Eigen::Index rank = 0;
+  const std::optional<Values> T = massless_last(M, rank);
+  if (!T) {
+    linearize(M, C, K, a, b);
+    return qz(a, b, with_vectors);
+  }
+  const Eigen::Index n = M.rows();
+  Values MT = M * *T;
+  MT.rightCols(n - rank).setZero();
+  linearize<Values>(MT, C * *T, K * *T, a, b);
+  auto all = qz(a, b, with_vectors);
+  if (all && with_vectors)
+    all->vectors = (T->template cast<Complex>() * all->vectors.topRows(n)).eval();  // without velocities
+  return all;
 }
 
 /// Eigenvalues only, by the QR algorithm on the companion form with M inverted.

@@ -64,7 +64,7 @@ bool declares(const Scene& scene, const std::string& name) {
 }  // namespace
 
 ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings, std::string_view option) {
-  ChangedScene changed{std::move(scene), {}};
+  ChangedScene changed{std::move(scene), {}, {}};
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     const std::string_view text = setting;
@@ -86,6 +86,7 @@ ChangedScene with_settings(Scene scene, const std::vector<std::string>& settings
     next.files = std::move(changed.scene.files);
     next.matrices = std::move(changed.scene.matrices);
     changed.scene = std::move(next);
+    changed.names.push_back(name);
   }
   return changed;
 }

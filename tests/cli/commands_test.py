@@ -15,6 +15,33 @@ from program import BIRTH, BLADE, CROSSING, EXIT_BAD_INPUT, EXIT_NUMBERS_FAILED,
 
 COMMANDS = ["trace", "spectrum", "eval", "events", "boundary", "map", "info", "explain", "accuracy"]
 
+MASSLESS_SHAFT = """
+[parameters]
+speed = 0.0
+[trace]
+parameter = "speed"
+from = 0
+to = 2000
+[[shaft]]
+stations = { length = 0.24, outer = 0.012 }
+elements = 4
+E = 2.1e11
+nu = 0.3
+density = 0
+speed = "speed"
+internal_damping = 2.4e-6
+[[disc]]
+node = 2
+mass = 0.8
+Id = 0.00066
+Ip = 0.0012
+[[bearing]]
+node = [1, 4]
+kxx = 1e8
+kxy = "10*speed"
+kyx = "-10*speed"
+"""
+
 
 class Program(CommandTest):
     def test_version_names_the_program_and_a_number(self):
@@ -108,6 +135,20 @@ class Spectrum(CommandTest):
         lines = self.run_well("spectrum", self.write_blade()).splitlines()
         self.assertTrue(any(line.startswith("omega = 100") for line in lines))
         self.assertTrue(any(line.endswith("flap") for line in lines))
+
+    def test_modes_that_grow_are_shown_whatever_is_chosen(self):
+        self.write("scene.toml", FAMILY.replace("K = ", "C = [[[0.1, 0], [0, -0.2]]]\nK = ", 1))
+        summary = self.run_well("spectrum", "scene.toml", "--at", "0", "--modes", "1")
+        self.assertIn("modes that grow: 2", summary)
+        self.assertIn("0.1 + 1.4106736j", summary)  # i sqrt(2 - 0.01)
+
+    def test_a_singular_mass_of_an_independent_part_has_no_large_eigenvalues(self):
+        """A shaft without mass, a disc on it: 4 freedoms with mass, 16 with damping only, in each plane half of them."""
+        self.write("scene.toml", MASSLESS_SHAFT)
+        rows = json.loads(self.run_well("spectrum", "scene.toml", "--modes", "all", "--json"))
+        self.assertLess(max(row["real"] for row in rows), 0.0)
+        self.assertLess(max(abs(complex(row["real"], row["imag"])) for row in rows), 1e9)
+        self.assertIn("stable  speed = 0 -> 1682.4378949", self.run_well("trace", "scene.toml", "--modes", "4", "-o", "loci.h5"))
 
     def test_modes_are_chosen_in_the_same_words(self):
         rows = json.loads(self.run_well("spectrum", self.write_blade(), "--at", "50", "--modes", "count = 1, near = '1 kHz'",

@@ -45,6 +45,14 @@ class Settings(CommandTest):
         self.assertEqual((run.returncode, run.stdout), (EXIT_DONE, ""))
         self.assertEqual(run.stderr, "eigentrail: warning: --set p: has no effect: its values are those of the trace\n")
 
+    def test_of_the_traced_parameter_is_where_a_spectrum_is_and_no_trace(self):
+        self.write("scene.toml", SCENE)
+        run = self.run_program("trace", "scene.toml", "-q", "--set", "omega=30")
+        self.assertEqual((run.returncode, run.stderr),
+                         (EXIT_DONE, "eigentrail: warning: --set omega: has no effect: its values are those of the trace\n"))
+        self.assertIn("omega = 30", self.run_well("spectrum", "scene.toml", "--set", "omega=30"))
+        self.assertIn("omega = 40", self.run_well("spectrum", "scene.toml", "--set", "omega=30", "--at", "40"))
+
     def test_are_checked_like_the_scene(self):
         self.write("scene.toml", SCENE)
         for setting, *fragments in (("drag=2*dragg", "--set drag", "did you mean 'drag'?"),

@@ -174,6 +174,15 @@ class Trace(CommandTest):
             self.assertEqual(file["mass"][-1], 20.0)
             self.assertNotIn("omega", file)
 
+    def test_another_parameter_does_not_have_the_range_of_the_scene(self):
+        """In rad/s, where that of the mass is in kg."""
+        self.write("scene.toml", BLADE)
+        for given in ((), ("--from", "10"), ("--to", "60")):
+            with self.subTest(given):
+                run = self.run_program("trace", "scene.toml", "--parameter", "mass", *given)
+                self.assert_refused(run, ["[trace]", "is missing", "--"])
+        self.assertIn("mass = 50\n", self.run_well("spectrum", "scene.toml", "--parameter", "mass"))
+
     def test_end_of_the_range_may_be_an_expression(self):
         with h5py.File(self.trace(BLADE, "--to", "5 * drag")) as file:
             self.assertEqual(file["omega"][-1], 10.0)

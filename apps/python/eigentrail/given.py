@@ -29,6 +29,7 @@ class Given(NamedTuple):
     ranges: dict[str, tuple[Any, Any]]
     warnings: list[str]
     attached: "Attached"
+    values: dict[str, float]  # those that were given, per parameter, in its unit
 
 
 class Attached(NamedTuple):
@@ -72,7 +73,8 @@ def give(command: Callable[..., Any], source: Source, values: Mapping[str, Any],
     if events:
         scene = _with_events(scene, events, attached)
     scene, warnings = scene.with_settings(settings, "")
-    return Given(scene, function, ranges, warnings, attached)
+    given = {name: value for name, _, value in scene.parameters if name in values and name not in ranges}
+    return Given(scene, function, ranges, warnings, attached, given)
 
 
 def option_text(value: Any) -> str:

@@ -19,7 +19,7 @@ SAMPLES_PER_STEP = 16  # between two of them the least damping ratio is found by
 
 
 class Least(NamedTuple):
-    """The least damping ratio of a trace: its value, where it is, and the mode (its number from 0)."""
+    """The least damping ratio of a trace: its value, where it is, and the number of the mode, from 1."""
 
     value: float
     at: float
@@ -59,7 +59,7 @@ def gradient(loci: xarray.Dataset, quantity: str = "flutter", *, mode: Any = Non
         if quantity != "damping_ratio":
             raise SceneError(f"{quantity}: expected a value of the traced parameter, {loci.attrs['parameter']}=...")
         least = least_damping(loci, mode)
-        return _of_mode(loci, quantity, least.at, least.mode).drop(loci.attrs["parameter"])
+        return _of_mode(loci, quantity, least.at, least.mode - 1).drop(loci.attrs["parameter"])
     value = float(loci.eigentrail._wanted(at))
     if mode is None:
         raise SceneError(f"{quantity}: expected the mode, by its label or name: mode=\"mode 1\"")
@@ -91,7 +91,7 @@ def least_damping(loci: xarray.Dataset, mode: Any = None) -> Least:
             at = np.linspace(at[max(row - 1, 0)], at[min(row + 1, len(at) - 1)], 2 * SAMPLES_PER_STEP + 1)
             values, modes = ratios(at)
             row = int(np.nanargmin(values[:, column]))
-        return Least(float(values[row, column]), float(at[row]), int(modes[column]))
+        return Least(float(values[row, column]), float(at[row]), int(modes[column]) + 1)
 
     values, _ = ratios(places)
     if not np.isfinite(values).any():

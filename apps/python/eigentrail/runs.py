@@ -162,7 +162,8 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
         spectrum("rotor.toml", at=120)
 
     Columns: the parameter, mode, eigenvalue (1/s), natural_frequency and damped_frequency (rad/s), damping_ratio, what_moves,
-    condition; for samples also interpolation_error and digits_error (1/s). `at` is by default where [trace] begins.
+    condition; for samples also interpolation_error and digits_error (1/s). `at` is by default the value given for the parameter,
+    or where [trace] begins.
 
     >>> et.spectrum(scene, at=0.25)[["p", "mode", "damped_frequency"]].round(4)
           p  mode  damped_frequency
@@ -170,8 +171,9 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     1  0.25     2            1.3894
     """
     given = give(spectrum, scene, {**(settings or {}), **parameters})
-    chosen = _trace_options(given, options, modes=modes)
-    values = [_begin(given)] if at is None else [number("at", value) for value in np.atleast_1d(at)]
+    chosen = _trace_options(given, options, modes=modes, single=True)
+    one = [given.values[name] for name in [given.scene.traced] if name in given.values]
+    values = one if at is None else [number("at", value) for value in np.atleast_1d(at)]
     found = engine().spectrum(given.scene, chosen, values)
     faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
     if faults and not found["rows"]:
@@ -192,7 +194,7 @@ def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapp
     2 freedoms: 2 coordinates, no constraints.
     """
     given = give(explain, scene, {**(settings or {}), **parameters})
-    text = engine().explain(given.scene, _trace_options(given, options), sensitivity)
+    text = engine().explain(given.scene, _trace_options(given, options, single=True), sensitivity)
     _tell(given.warnings)
     return Explanation(text)
 
@@ -214,13 +216,17 @@ def events(loci: xarray.Dataset) -> pandas.DataFrame:
     return loci.eigentrail.events
 
 
-def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, first: Optional[str] = None,
+def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, first: Optional[str] = None, *, single: bool = False,
                    **options: Any) -> Options:
-    """Options as texts, those of the dict `others` too; `first` is the traced parameter, by default the one with a range."""
+    """Options as texts, those of the dict `others` too; `first` is the traced parameter, by default the one with a range. `single`:
+    it may have a single value."""
     if first is None and given.ranges:
         if len(given.ranges) > 1:
             raise SceneError(f"expected the range of one parameter, found those of {', '.join(given.ranges)}")
         first = next(iter(given.ranges))
+    traced = (others or {}).get("parameter", first or given.scene.traced)
+    if traced in given.values and not single:
+        raise SceneError(f"{traced}: expected a range, such as {traced}=(0, 400), because it is traced; found one value")
     twice = [key for key, value in options.items() if value is not None and key in (others or {})]
     if twice:
         raise SceneError(f"{twice[0]}: is a keyword, and among the options; give one of them")
@@ -243,15 +249,6 @@ def _two_ranges(given: Given) -> tuple[Optional[str], str]:
     if names[1] == traced:
         names.reverse()
     return names[0], names[1]
-
-
-def _begin(given: Given) -> float:
-    if given.ranges:
-        return float(next(iter(given.ranges.values()))[0])
-    for name, _, value in given.scene.parameters:
-        if name == given.scene.traced:
-            return float(value)
-    raise SceneError("expected at=, the value of the parameter")
 
 
 def _computed(given: Given, progress: Progress, compute: Callable[[Any], Any]) -> tuple[Any, list[str]]:

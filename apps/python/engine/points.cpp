@@ -28,11 +28,13 @@ TraceSetup prepare_at(const Scene& scene, const Options& options, const std::vec
   return setup;
 }
 
-/// One row per value and mode.
-py::dict spectrum(const Scene& scene, const Options& options, const std::vector<double>& values) {
+/// One row per value and mode; without values, where the trace begins.
+py::dict spectrum(const Scene& scene, const Options& options, std::vector<double> values) {
   std::vector<OperatingPoint> points;
   std::vector<std::optional<Matrix>> errors;
   unlocked([&] {
+    if (values.empty())
+      values.push_back(prepare_trace(scene, options, Purpose::operating_point).options.from);
     const TraceSetup setup = prepare_at(scene, options, values);
     points = operating_points(setup, values);
     for (const OperatingPoint& point : points)

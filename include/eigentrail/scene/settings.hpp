@@ -11,6 +11,7 @@ namespace eigentrail {
 
 struct ChangedScene {
   Scene scene;
+  std::vector<std::string> names;     ///< of the parameters that were set
   std::vector<std::string> warnings;  ///< about settings that have no effect
 };
 

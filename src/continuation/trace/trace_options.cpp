@@ -168,15 +168,25 @@ Table table_of(const std::string& key, const std::string& text) {
   return table;
 }
 
-/// The [trace] table in which values from the command line replace those of the same key. Texts of the
-/// command line that are numbers become numbers, "true" and "false" become flags, a choice of modes a
-/// table.
+/// The [trace] table in which values from the command line replace those of the same key. The range in it is
+/// that of its own parameter, not of another one. Texts of the command line that are numbers become numbers,
+/// "true" and "false" become flags, a choice of modes a table.
 Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   const auto found = tables(scene, "trace");
   if (found.size() > 1)
     throw scene_error(scene, found[1]->where, "[trace]: a scene has one of these at most");
   Table merged;
   if (!found.empty()) merged = *found[0];
+  const auto leave_out = [&merged](const std::string& key) {
+    std::erase_if(merged.entries, [&key](const auto& entry) { return entry.first == key; });
+  };
+  const Value* own = merged.find("parameter");
+  const auto other = std::ranges::find(overrides, "parameter", &OptionTexts::value_type::first);
+  const auto* name = own == nullptr ? nullptr : std::get_if<std::string>(&own->data);
+  if (name != nullptr && other != overrides.end() && *name != other->second) {
+    leave_out("from");
+    leave_out("to");
+  }
   for (const auto& option : overrides) {
     const std::string& text = option.second;
     Value value{text, {}};
@@ -184,7 +194,7 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
     if (text == "true" || text == "false") value.data = text == "true";
     const bool is_choice = option.first == "modes" && text.find('=') != std::string::npos;
     if (is_choice) value.data = table_of(option.first, text);
-    std::erase_if(merged.entries, [&option](const auto& entry) { return entry.first == option.first; });
+    leave_out(option.first);
     merged.entries.emplace_back(option.first, std::move(value));
   }
   return merged;
