@@ -91,20 +91,13 @@ Matrix projected(const Matrix& A, const Matrix& T, double& magnified) {
   return result;
 }
 
-/// Entries of K that are rounding of the reactions become zero: each reaction has the rounding of the largest
-/// one, and so has the stiffness that it causes. By the masses of their freedoms such entries are below
-/// rounding of the largest eigenvalue.
-void drop_rounding_of_reactions(const std::vector<Matrix>& M, std::vector<Matrix>& K) {
-  constexpr double rounding = 1e-15;
-  if (M.empty() || !(M[0].diagonal().minCoeff() > 0.0)) return;
-  const Vector scale = M[0].diagonal().cwiseSqrt().cwiseInverse();
-  double largest = 0.0;
-  for (const Matrix& A : K)
-    largest = std::max(largest, (scale.asDiagonal() * A * scale.asDiagonal()).cwiseAbs().maxCoeff());
-  for (Matrix& A : K) {
-    const Matrix sizes = scale.asDiagonal() * A.cwiseAbs() * scale.asDiagonal();
-    A = (sizes.array() > rounding * largest).select(A, 0.0);
-  }
+/// T^T K T without entries that are rounding: of positions and reactions, by which stiffness holds where
+/// there is none.
+Matrix without_rounding(const Matrix& K, const Matrix& T, const Matrix& changes) {
+  constexpr double rounding = 1e-14;
+  if (changes.size() == 0) return K;
+  const Matrix terms = magnitudes_of_terms(T, changes, T);
+  return (K.array().abs() > rounding * terms.array()).select(K, 0.0);
 }
 
 std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix& T, double& magnified) {
@@ -166,11 +159,11 @@ std::shared_ptr<const IndependentParts> find_independent_parts(const Coefficient
 }
 
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
-                                                               const Matrix& T) {
+                                                               const Matrix& T, const Matrix& changes) {
   double magnified = 1.0;
   CoefficientMatrices inner{projected(coefficients.M, T, magnified), projected(coefficients.C, T, magnified),
                             projected(coefficients.K, T, magnified)};
-  drop_rounding_of_reactions(inner.M, inner.K);
+  for (Matrix& K : inner.K) K = without_rounding(K, T, changes);
   const auto within = find_parts(inner, magnified);
   if (within == nullptr || !within->falls_apart()) return nullptr;
   place_in(T, *within);
@@ -186,9 +179,9 @@ std::shared_ptr<const IndependentParts> find_turning_parts(const std::vector<Pla
   for (std::size_t i = 0; i < places.size(); ++i) {
     inner.M.push_back(projected(places[i].M, frames[i], magnified));
     inner.C.push_back(projected(places[i].C, frames[i], magnified));
-    inner.K.push_back(projected(places[i].K, frames[i], magnified));
+    inner.K.push_back(
+        without_rounding(projected(places[i].K, frames[i], magnified), frames[i], places[i].changes));
   }
-  drop_rounding_of_reactions(inner.M, inner.K);
   const auto within = find_parts(inner, magnified);
   if (within == nullptr || !within->falls_apart()) return nullptr;
   place_in(frames.back(), *within);

@@ -33,7 +33,7 @@ TEST(EventKinds, NumbersAndNamesThatAreNoneAreTold) {
 
 TEST(EventKinds, RemarksSayWhatAnEventIs) {
   EventFacts facts;
-  EXPECT_EQ(event_kind(EventKind::flutter).remark(facts), "");
+  EXPECT_EQ(event_kind(EventKind::flutter).remark(facts), "touches the imaginary axis");
   facts.direction = 1;
   EXPECT_EQ(event_kind(EventKind::flutter).remark(facts), "unstable above");
   facts.value = 0.05;

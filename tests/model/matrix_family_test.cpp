@@ -247,7 +247,7 @@ TEST(MatrixFamily, VariableMayBeDerivedAndHasItsSiValueEverywhere) {
   const std::string matrices = "[matrix_family]\nM = [ [[1]] ]\nK = [ [[1]], [[1]] ]\n";
   const Setting derived = make_setting(
       "[parameters]\nb = 0.1\np = \"2 * b\"\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 0.4\n" + matrices,
-      {{"parameter", "b"}});
+      {{"parameter", "b"}, {"from", "0"}, {"to", "0.4"}});
   const RecordedTrace recorded = record_trace(derived);
   EXPECT_NEAR(recorded.nodes.back().s(0, 0).imag(), std::sqrt(1.8), 1e-12);
   const Setting rpm = make_setting(

@@ -168,7 +168,7 @@ POINTS = [
     (call(sweep, {"drag": []}), "expected values of at least one parameter"),
     (call(sweep, {"drag": ["x"]}), "drag: ", "unknown parameter 'x'"),
     (call(sweep, {"drug": [1]}), "did you mean 'drag'?"),
-    (call(sweep, {"omega": [1, 2]}), "omega: is the traced parameter; give it a range, omega=(from, to), and sweep others"),
+    (call(sweep, {"omega": [1, 2]}), "omega: is the traced parameter; give it a range, omega=(from, to)"),
     (call(sweep, {"drag": [1]}, drag=3), "drag: is swept, and has a value of its own; give one of them"),
     (call(sweep, {"drag": [1]}, points=0), "points: expected the number of values of the traced parameter, 2 at least"),
     (call(sweep, {"drag": [1]}, points="x"), "points: expected the number of values", "found 'x'"),

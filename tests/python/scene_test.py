@@ -77,6 +77,11 @@ class Scenes(ProgramTest):
             np.testing.assert_allclose(rows.eigenvalue, loci.eigentrail.sel(omega=omega).eigenvalue, rtol=1e-11)
         np.testing.assert_allclose(table.damping_ratio, -table.eigenvalue.map(np.real) / table.natural_frequency)
 
+    def test_the_spectrum_is_by_default_where_the_trace_begins_or_at_the_value_given(self):
+        self.assertEqual(set(et.spectrum(SCENES / "rotating_mass.toml").omega), {100.0})
+        self.assertEqual(set(et.spectrum(SCENES / "rotating_mass.toml", omega=20).omega), {20.0})
+        self.assertEqual(set(et.spectrum(SCENES / "rotating_mass.toml", omega=(30, 5)).omega), {30.0})
+
 
 class Faults(unittest.TestCase):
     def assert_fails(self, error, text, function, *arguments, **keywords):
@@ -97,6 +102,7 @@ class Faults(unittest.TestCase):
 
     def test_ranges(self):
         self.assert_fails(et.SceneError, "expected a range of two values", et.trace, BLADE, omega=(1, 2, 3))
+        self.assert_fails(et.SceneError, "omega: is the traced parameter; give it a range, omega=(from, to)", et.trace, BLADE, omega=30)
         self.assert_fails(et.SceneError, "the range of one parameter", et.trace, BLADE, omega=(1, 2), drag=(1, 2))
         self.assert_fails(et.SceneError, "the ranges of two parameters", et.map, BLADE)
         self.assert_fails(et.SceneError, "numbers in the unit", et.map, BLADE, drag=("1", "2"))

@@ -61,6 +61,12 @@ class Sweeps(unittest.TestCase):
         self.assertTrue(np.isnan(swept.natural_frequency.values[1]).all())
         self.assertIsInstance(swept.eigentrail.runs[(5.0,)], et.TraceError)
 
+    def test_values_that_are_bad_input_stop_nothing(self):
+        swept = et.sweep(BLADE, {"length": [5, -1]}, points=3)
+        self.assertEqual(list(swept.status.values), ["completed", "not traced"])
+        self.assertIn("length: must be positive; found -1", str(swept.message.values[1]))
+        self.assertIsInstance(swept.eigentrail.runs[(-1,)], et.SceneError)
+
     def test_mistakes(self):
         for over, how, text in (({}, {}, "at least one parameter"), ({"drag": []}, {}, "at least one parameter"),
                                 ({"drag": [1]}, {"drag": 2}, "swept"), ({"omega": [1, 2]}, {}, "is the traced parameter"), ({"drog": [1]}, {}, "did you mean 'drag'")):
@@ -116,6 +122,7 @@ class Gradients(unittest.TestCase):
         least = et.least_damping(loci)
         self.assertAlmostEqual(least.value, 0.1, places=9)
         self.assertAlmostEqual(least.at, 0.3, places=4)
+        self.assertEqual(least.mode, 1)
         gradient = et.gradient(loci, "damping_ratio")
         self.assertAlmostEqual(gradient["a"], 1.0, places=6)
         self.assertEqual(list(gradient.index), ["a"])

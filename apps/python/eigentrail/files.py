@@ -71,7 +71,7 @@ def save(data: xarray.Dataset, path: Union[str, os.PathLike[str]], overwrite: bo
     image = data.encoding.get(IMAGE)
     if image is None or not from_bytes(image).identical(data):
         raise SceneError("this Dataset is a part or a change of a result; save the one that trace, boundary, map or accuracy "
-                         "has returned, or write this one with to_netcdf")
+                         "has returned, or write this one with to_netcdf(path, engine='h5netcdf', invalid_netcdf=True)")
     write({os.fspath(path): image}, overwrite)
 
 

@@ -226,7 +226,7 @@ def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, fir
         first = next(iter(given.ranges))
     traced = (others or {}).get("parameter", first or given.scene.traced)
     if traced in given.values and not single:
-        raise SceneError(f"{traced}: expected a range, such as {traced}=(0, 400), because it is traced; found one value")
+        raise SceneError(f"{traced}: is the traced parameter; give it a range, {traced}=(from, to)")
     twice = [key for key, value in options.items() if value is not None and key in (others or {})]
     if twice:
         raise SceneError(f"{twice[0]}: is a keyword, and among the options; give one of them")

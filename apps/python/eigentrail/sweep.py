@@ -88,11 +88,11 @@ class _Traced:
 
 
 class _Failed:
-    """A trace that could not begin."""
+    """A trace that could not begin, or of which the scene with these values is bad input."""
 
     status, flutter, shapes, remarks = "not traced", np.nan, None, ()
 
-    def __init__(self, error: TraceError):
+    def __init__(self, error: SceneError | TraceError):
         self.run, self.message = error, str(error)
 
     def at(self, values: Any, n_modes: int) -> dict[str, Any]:
@@ -113,7 +113,7 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
         try:
             settings: Any = {**how.get("settings", {}), **dict(zip(names, place))}
             traced = trace_file(scene, **{**how, "settings": settings, "threads": 1, "progress": go_on})
-        except TraceError as error:
+        except (SceneError, TraceError) as error:
             return _Failed(error)
         return _Traced(traced)
 
@@ -133,7 +133,7 @@ def _run_all(scene: Source, names: Sequence[str], places: Sequence[tuple[Any, ..
 
 
 class Runs(UserDict[tuple[Any, ...], Any]):
-    """The Datasets of the traces by their values; a TraceError where one could not begin. Each is read when it is asked for."""
+    """The Datasets of the traces by their values; the error of one that could not begin. Each is read when it is asked for."""
 
     def __getitem__(self, place: tuple[Any, ...]) -> Any:
         run = super().__getitem__(place)
@@ -143,12 +143,12 @@ class Runs(UserDict[tuple[Any, ...], Any]):
 def _together(names: Sequence[str], values: Mapping[str, Sequence[Any]], places: Sequence[tuple[Any, ...]],
               runs: Sequence[Any], points: Any) -> xarray.Dataset:
     traced = [run for run in runs if isinstance(run, _Traced)]
+    if not traced and isinstance(runs[0].run, SceneError):
+        raise runs[0].run
     if not traced:
         raise TraceError(f"none of {len(runs)} traces could begin; the first: {runs[0].message}")
     loci = traced[0].run.loci()
     parameter = loci.attrs["parameter"]
-    if parameter in names:
-        raise SceneError(f"{parameter}: is the traced parameter; give it a range, {parameter}=(from, to), and sweep others")
     longest = max((run.path for run in traced), key=lambda path: abs(path[-1] - path[0]))
     at = np.asarray(points, float) if np.ndim(points) > 0 else np.linspace(longest[0], longest[-1], int(points))
     n_modes = max(run.n_modes for run in traced)

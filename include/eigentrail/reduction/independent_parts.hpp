@@ -74,9 +74,11 @@ struct IndependentParts {
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients);
 
 /// The same for equations with constant constraints: the parts of T^T A T for all matrices A, n x n, in
-/// coordinates within the tangent space. T: its orthonormal basis, n x n'. Null where they do not fall apart.
+/// coordinates within the tangent space. T: its orthonormal basis, n x n'.
+/// `changes`, n x n or empty: magnitudes that times the rounding unit are the errors of the entries of K;
+/// what is below is no stiffness. Null where they do not fall apart.
 std::shared_ptr<const IndependentParts> find_independent_parts(const CoefficientMatrices& coefficients,
-                                                               const Matrix& T);
+                                                               const Matrix& T, const Matrix& changes = {});
 
 /// The same parts, with canonical coordinates and two entries for each that is a conjugate pair of complex
 /// parts: those of which all matrices commute, in suitable coordinates, with a real J, J^2 = -I. `parts` may
@@ -91,10 +93,12 @@ std::shared_ptr<const IndependentParts> joined_pairs(const IndependentParts& par
                                                      const std::vector<bool>& which,
                                                      std::vector<int>& numbers);
 
-/// Mass, damping and stiffness at a place of the path, n x n, and the tangent space there.
+/// Mass, damping and stiffness at a place of the path, n x n, and the tangent space there; `reactions` as
+/// above.
 struct PlaceOnPath {
   Matrix M, C, K;
   ConstraintFactorization constraints;
+  Matrix changes = {};
 };
 
 /// The same for equations whose tangent space turns: the parts of T^T A T at all places, T = turned_frame at

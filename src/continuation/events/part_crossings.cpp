@@ -147,7 +147,15 @@ std::optional<Event> CrossingWalk::from(double t) {
   const double scale = std::max(std::abs(s_[0]), search_.problem().s_ref);
   const double same = search_.thresholds().identity.merged_distance;
   if (std::abs(s_[0] - s_[1]) > same * scale) return std::nullopt;  // they pass beside each other
-  return event_here();
+  Event event = event_here();
+  // By the error of the dense output it may lie on the step before or behind, if there is one.
+  const double place = found.position / step_.h, rounding = rules.rounding / std::abs(step_.h);
+  if (place < -rounding && --event.node == 0) return std::nullopt;
+  if (place > 1.0 + rounding) {
+    if (reached_end(search_.frame(), step_.right)) return std::nullopt;
+    ++event.node;
+  }
+  return event;
 }
 
 /// Crossings of two modes on the step: of the roots of their difference near the real axis, those that
@@ -155,8 +163,7 @@ std::optional<Event> CrossingWalk::from(double t) {
 void add_crossings(const EventSearch& search, const Step& step, ModesOnStep& on_step, ModeOfTrack& a,
                    ModeOfTrack& b, FoundEvents& found) {
   constexpr double off_axis = 0.1;  // in steps
-  // In steps. By the error of the dense output, one at the end of the step may lie behind it: whirl of a
-  // shaft at rest.
+  // In steps: one at the end of the step may lie behind it, by the error of the dense output.
   constexpr double past_the_ends = 1e-3;
   RootsOnStep roots([&](double t) { return on_step.s(a, t) - on_step.s(b, t); },
                     [&](double t) { return on_step.resolution(a, t) + on_step.resolution(b, t); }, off_axis);

@@ -43,17 +43,36 @@ void add(const SystemSeries& B, bool is_constant, std::vector<Matrix>& samples) 
 }
 
 /// The linearization at p if x is an equilibrium there; empty if it is not. `lambda`: the multipliers, where
-/// these do not change either.
+/// these do not change either; becomes those at p.
 std::optional<Linearization> linearize_at_rest(const PathProblem& problem, double p, const Vector& x,
-                                               const Vector& lambda, EvaluationCounts& counts) {
+                                               Vector& lambda, EvaluationCounts& counts) {
   const Vector parameters = parameters_at(problem, p);
   if (!problem.structure.fixed_equilibrium || !problem.structure.constant_constraints) {
     auto rest = find_rest(problem.model, parameters, x, counts);
-    return rest ? std::optional(std::move(rest->linearization)) : std::nullopt;
+    if (!rest) return std::nullopt;
+    lambda = rest->lambda;
+    return std::move(rest->linearization);
   }
   Linearization there;
   if (problem.model.linearize({parameters, x, lambda}, 0, there, counts)) return std::nullopt;
   return there;
+}
+
+/// By how much K, that at p, changes if all coordinates change by the largest one, in the first order, and
+/// all reactions by the largest: rounding of both is so much in K.
+Matrix changes_of_stiffness(const PathProblem& problem, double p, const Vector& x, const Vector& lambda,
+                            const Matrix& K, EvaluationCounts& counts) {
+  constexpr double small = 1e-6;
+  const auto moved = [](const Vector& values, double share) -> Vector {
+    if (values.size() == 0) return values;
+    return values + Vector::LinSpaced(values.size(), 1.0, 2.0) * (share * values.cwiseAbs().maxCoeff());
+  };
+  const Vector parameters = parameters_at(problem, p);
+  Linearization elsewhere, loaded;
+  if (problem.model.linearize({parameters, moved(x, small), lambda}, 0, elsewhere, counts) ||
+      problem.model.linearize({parameters, x, moved(lambda, 1.0)}, 0, loaded, counts))
+    return {};
+  return (elsewhere.K[0].dense() - K).cwiseAbs() / small + (loaded.K[0].dense() - K).cwiseAbs();
 }
 
 bool leaves_its_path(const TraceOptions& options) {
@@ -65,12 +84,14 @@ std::shared_ptr<const IndependentParts> parts_at(const std::vector<PlaceOnPath>&
                                                  bool constant_constraints) {
   if (!constant_constraints) return find_turning_parts(places);
   CoefficientMatrices samples;
+  Matrix changes = places.front().changes;
   for (const PlaceOnPath& place : places) {
     samples.M.push_back(place.M);
     samples.C.push_back(place.C);
     samples.K.push_back(place.K);
+    if (place.changes.norm() > changes.norm()) changes = place.changes;
   }
-  return find_independent_parts(samples, separated_basis(places.front().constraints));
+  return find_independent_parts(samples, separated_basis(places.front().constraints), changes);
 }
 
 /// The parts of a scene whose equilibrium moves: the matrices at the equilibria of the range take the place
@@ -90,8 +111,10 @@ std::shared_ptr<const IndependentParts> parts_of_moving_scene(const PathProblem&
     if (point.status != PointStatus::computed || point.pencil.size() < 2) return nullptr;
     const Linearization& there = point.equilibrium.linearization;
     if (there.K[0].is_sparse()) return nullptr;
+    const Equilibrium& at = point.equilibrium;
     samples.push_back(
-        {there.M[0].dense(), there.C[0].dense(), there.K[0].dense(), point.equilibrium.kkt.constraints()});
+        {there.M[0].dense(), there.C[0].dense(), there.K[0].dense(), at.kkt.constraints(),
+         changes_of_stiffness(problem, places[i], at.x, at.lambda, there.K[0].dense(), counts.evaluations)});
     guess = {point.equilibrium.x, point.equilibrium.lambda, true};
     if (i != 1 && i + 1 != places.size()) continue;
     parts = parts_at(samples, problem.structure.constant_constraints);
@@ -125,20 +148,26 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   const std::vector<double> places = places_of(options, narrow);
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
-  Matrix A;
+  Matrix A, changes;
+  double largest = 0.0;
   for (const double place : places) {
-    const auto there = linearize_at_rest(problem, place, x, lambda, counts);
+    Vector reaction = lambda;
+    const auto there = linearize_at_rest(problem, place, x, reaction, counts);
     if (there && samples.M.empty()) A = there->A[0].dense();
     if (!there || there->A[0].dense() != A)
       return {false, parts_of_moving_scene(problem, options, places, x, lambda)};
     add(there->M, structure.constant_mass, samples.M);
     add(there->C, structure.constant_damping, samples.C);
     add(there->K, structure.constant_stiffness, samples.K);
+    const double size = reaction.size() > 0 ? reaction.cwiseAbs().maxCoeff() : 0.0;
+    if (changes.size() > 0 && !(size > largest)) continue;
+    largest = size;
+    changes = changes_of_stiffness(problem, place, x, reaction, there->K[0].dense(), counts);
   }
   const ConstraintFactorization constraints{SystemMatrix(A)};
   const Eigen::Index freedoms = model.n_coordinates() - constraints.rank();
   if (freedoms < 2 || freedoms > most_freedoms) return {true, nullptr};
-  return {true, find_independent_parts(samples, separated_basis(constraints))};
+  return {true, find_independent_parts(samples, separated_basis(constraints), changes)};
 }
 
 }  // namespace eigentrail

@@ -144,6 +144,12 @@ bool notices_rounding(const PathProblem& problem, const TraceOptions& options, c
   return known_rounding(state.frame, track) >= seen;  // less of guard modes
 }
 
+/// The point at which a trace begins: no step arrives there.
+const PathNode& as_first(PathNode& node) {
+  for (Track& track : node.tracks) track.arriving = track.modes;
+  return node;
+}
+
 /// Modes that have to be followed from a point on.
 EnteringModes needed_at(const PathProblem& problem, const TraceOptions& options, const PathNode& node,
                         TraceState& state) {
@@ -181,7 +187,7 @@ TraceResult TraceLoop::run() {
   if (start()) {
     prepare_to_follow();
     follow();
-    if (state_.result.nodes == 0) emit_first();  // no step was taken
+    if (state_.result.nodes == 0) emit(as_first(state_.origin.node), nullptr);  // no step was taken
   }
   return finished(options_, seconds_so_far(), state_);
 }
@@ -219,7 +225,7 @@ bool TraceLoop::start() {
   log(std::move(met));
   // The point is emitted with the first step, and with the modes that this one finds missing.
   if (!state_.frame.on_branch_point(options_.from)) return true;
-  if (!emit_first()) return false;
+  if (!emit(as_first(state_.origin.node), nullptr)) return false;
   const bool leaves = leaves_path_at(node);
   const bool goes_on = !leaves || leave_path();
   ++state_.branches.passed;
@@ -402,7 +408,7 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
     state_.control.reject(std::abs(step.h), INFINITY);
     return true;
   }
-  if (result.nodes == 0 && !emit_first()) return false;
+  if (result.nodes == 0 && !emit(as_first(state_.origin.node), nullptr)) return false;
   settle_events(landed);
   const PathStep stored = with_copies(state_.copies, stored_step(problem_, step, certified));
   std::vector<std::uint64_t> lineages;
@@ -579,11 +585,6 @@ void TraceLoop::log(FoundEvents found) {
     for (Event& event : with_copies(state_.copies, state_.events[i]))
       state_.result.events.push_back(std::move(event));
   }
-}
-
-bool TraceLoop::emit_first() {
-  for (Track& track : state_.origin.node.tracks) track.arriving = track.modes;
-  return emit(state_.origin.node, nullptr);
 }
 
 bool TraceLoop::emit(const PathNode& node, const PathStep* step) {

@@ -52,7 +52,6 @@ class TraceLoop final : private Checkpoint {
   double longest_allowed_step() const;
   bool leaves_path_at(const PathNode& node) const;
   void log(FoundEvents found);
-  bool emit_first();
   bool emit(const PathNode& node, const PathStep* step);
   bool stop(TraceStatus status, const std::string& message);
   double seconds_so_far() const;

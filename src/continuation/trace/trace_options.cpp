@@ -183,7 +183,8 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   const Value* own = merged.find("parameter");
   const auto other = std::ranges::find(overrides, "parameter", &OptionTexts::value_type::first);
   const auto* name = own == nullptr ? nullptr : std::get_if<std::string>(&own->data);
-  if (name != nullptr && other != overrides.end() && *name != other->second) {
+  if (name != nullptr && other != overrides.end() && *name != other->second &&
+      scene.parameters.index(other->second)) {
     leave_out("from");
     leave_out("to");
   }
