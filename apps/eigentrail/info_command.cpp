@@ -85,9 +85,9 @@ void print_for_people(const LociFile& loci) {
               loci.constraints.size(), loci.modes.size(), loci.n_nodes());
   if (const std::string data = attribute(loci, "model_data"); data != "?") std::printf("%s", data.c_str());
   if (loci.n_nodes() == 0) return;
-  std::printf("  %s  %s -> %s %s, tolerance %s relative to max(|s|, %s 1/s)%s\n", loci.parameter.c_str(),
+  std::printf("  %s  %s -> %s%s, tolerance %s relative to max(|s|, %s 1/s)%s\n", loci.parameter.c_str(),
               exact_text(loci.p.front()).c_str(), exact_text(loci.p.back()).c_str(),
-              loci.parameter_unit == "1" ? "" : loci.parameter_unit.c_str(),
+              loci.parameter_unit == "1" ? "" : (" " + loci.parameter_unit).c_str(),
               attribute(loci, "tolerance").c_str(), rounded(loci.number("reference"), 4).c_str(),
               order_of_series(loci).c_str());
   std::vector<std::vector<std::string>> rows{{"mode", "what moves", "s at the start", "s at the end",
@@ -112,7 +112,8 @@ void print_for_people(const LociFile& loci) {
   print_permanent(permanence, loci.mode_names);
   if (loci.ranges) print_ranges(*loci.ranges, loci.parameter);
   if (!loci.events.empty())
-    std::printf("  %zu special points; `eigentrail events` lists them\n", loci.events.size());
+    std::printf("  %zu special point%s; `eigentrail events` lists them\n", loci.events.size(),
+                loci.events.size() == 1 ? "" : "s");
   if (const std::string notes = attribute(loci, "notes"); notes != "?" && !notes.empty())
     std::printf("  notes  %s\n", printable(notes).c_str());
   std::string counts;

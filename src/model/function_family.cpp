@@ -167,8 +167,9 @@ std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& 
          exact_text(options.tolerance) + ": between " + at(options.parameter, what.from) + " and " +
          exact_text(what.to) + " the entry " + layout.name(what.worst) + " is off by " +
          short_text(what.error, 3) +
-         " of its largest magnitude. Does it jump, or is there a kink? Name the place in breaks, or allow a "
-         "larger tolerance" +
+         " of its largest magnitude. Is there a kink? Name the place in breaks. Does it jump? Then the two "
+         "sides are two "
+         "families. Else allow a larger tolerance" +
          (out_of_calls ? " or more calls" : "");
 }
 

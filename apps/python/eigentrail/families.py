@@ -94,7 +94,7 @@ class Family(InMemory):
     as `function_tolerance` (of every entry, relative; by default a thousandth of the tolerance of the trace) needs, and
     between them so that no two calls are farther apart than `resolution`, a share of the range: narrower bumps may be
     missed, and what is certified is so down to this width. `max_calls` times at most; `breaks` are places where its matrices
-    have a jump or a kink.
+    have a kink; the two sides of a jump are two families.
 
     `parameter` is the name of the parameter, by default the one that is traced; `unit` its unit, for labels; `names` the
     names of the coordinates, n of them.
