@@ -24,10 +24,12 @@ class Curvature {
   /// constraints are redundant beside the configuration, too.
   Matrix along_motions(const Vector& nu) {
     const Matrix& Q2 = at_.kkt.constraints().null_basis();
-    Vector mixed = nu;
-    for (Eigen::Index i = 0; i < mixed.size(); ++i) mixed[i] *= std::cos(static_cast<double>(i));
-    const double terms = change(mixed).norm();
-    if (!(terms > 0.0)) return Matrix::Zero(Q2.cols(), Q2.cols());
+    Vector irregular(nu.size());
+    for (Eigen::Index i = 0; i < nu.size(); ++i) irregular[i] = std::cos(static_cast<double>(i));
+    const double terms = change(nu.cwiseProduct(irregular)).norm();
+    // Redundant ones that are linear have none; what is left is rounding in nu of all others.
+    const double of_all = change(nu.cwiseAbs().maxCoeff() * irregular).norm();
+    if (!(terms > half_of_digits * of_all)) return Matrix::Zero(Q2.cols(), Q2.cols());
     // As large as the stiffness itself, so that the difference keeps its digits.
     const double size = stiffness_.norm() > 0.0 ? stiffness_.norm() : terms;
     return Q2.transpose() * (change(size / terms * nu) * Q2) / size;

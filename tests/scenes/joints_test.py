@@ -252,5 +252,17 @@ class AnglesOfJoints(SceneTest):
             self.assert_within(self.eval_at(path, [g])[0, 0], expected, 1e-10)
 
 
+class Redundant(SceneTest):
+    def test_a_ball_joint_that_is_given_twice_is_one(self):
+        """Two free bodies in a ball joint, one spring: its constraints are linear, so that those of the second one say the same everywhere."""
+        joint = '[[ball]]\nfrom = { body = "a", at = [0.5, 0, 0] }\nto = { body = "b", at = [-0.5, 0, 0] }\n'
+        bodies = "".join(f'[[body]]\nname = "{name}"\nmass = 1\ninertia = [0.1, 0.15, 0.2]\nposition = {at}\n'
+                         for name, at in (("a", [0, 0, 0]), ("b", [1, 0, 0])))
+        spring = '[[guided_spring]]\npoint = { body = "b", at = [0.3, 0.2, 0] }\ndirection = [0, 0, 1]\nstiffness = "k"\n'
+        head = '[parameters]\nk = 40\n[trace]\nparameter = "k"\nfrom = 10\nto = 60\n'
+        spectra = [self.eval_at(self.trace_text(head + bodies + spring + joint * times), [10.0, 35.0]) for times in (1, 2)]
+        np.testing.assert_allclose(*spectra, rtol=1e-9, atol=1e-9)
+
+
 if __name__ == "__main__":
     unittest.main()
