@@ -121,6 +121,16 @@ TEST(FindPartCrossings, GivesPlaceAndEigenvalueInBothDirections) {
   }
 }
 
+TEST(FindPartCrossings, OneBehindTheEndIsOnTheNextStepOrBehindTheRange) {
+  Parts parts(oscillators({{0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}}));  // at 0.3
+  EXPECT_EQ(parts.find(0.1, 0.3).at(0).node, 1);
+  EXPECT_EQ(parts.find(0.1, 0.3 - 1e-6).at(0).node, 2);
+  EXPECT_TRUE(parts.find(0.3 + 1e-6, 0.5).empty());  // before the first one
+  Parts ending(
+      oscillators({{0.0, 2.0, 1.0}, {0.0, 4.0 + 1e-6, -1.0}}));  // 5e-7 behind 1, where the range ends
+  EXPECT_TRUE(ending.find(0.8, 1.0).empty());
+}
+
 TEST(FindPartCrossings, FindsNothingBesideAStep) {
   Parts parts(oscillators({{0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}}));
   EXPECT_TRUE(parts.find(0.0, 0.29).empty());
