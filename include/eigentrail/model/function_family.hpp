@@ -38,8 +38,9 @@ struct FunctionFamilyOptions {
   /// Width, as a share of the range, of the features that are looked for between the points that a smooth
   /// function needs: no two calls are farther apart. Narrower ones may be missed. 0 < resolution <= 1
   double resolution = 0.01;
-  /// Places inside the range where derivatives of the matrices jump, if they are known: pieces begin there. The
-  /// two sides of a jump are two families. A kink at any other place costs some 40 calls per halving of the pieces until `max_calls`.
+  /// Places inside the range where derivatives of the matrices jump, if they are known: pieces begin there.
+  /// The two sides of a jump are two families. A kink at any other place costs some 40 calls per halving of
+  /// the pieces until `max_calls`.
   std::vector<double> breaks = {};
   std::vector<std::string> state_names = {};  ///< n, or empty for x1, x2, ...
   std::vector<std::string> state_units = {};  ///< n, or empty for 1
