@@ -7,6 +7,26 @@ import numpy as np
 
 from program import BIRTH, BLADE, CROSSING, FAMILY, PUSHED_PENDULUM, ProgramTest
 
+FREE_ALONG_ITS_AXIS = """
+[parameters]
+speed = 0.0
+[trace]
+parameter = "speed"
+from = 0
+to = 1000
+[[shaft]]
+stations = { length = 0.4, outer = 0.04 }
+elements = 2
+E = 2.1e11
+nu = 0.3
+density = 7850
+speed = "speed"
+axial = true
+[[bearing]]
+node = [1, 3]
+kxx = 5e5
+"""
+
 
 class Verify(ProgramTest):
     def setUp(self):
@@ -67,6 +87,18 @@ class Verify(ProgramTest):
             file["K/0"] = rate * units[None, :] / units[:, None]
         return ("[trace]\nparameter = \"p\"\nfrom = 0\nto = 4\ntolerance = 1e-10\n"
                 "[matrix_family]\nfile = \"states.h5\"\n")
+
+    def test_zeros_that_qz_makes_a_pair_pass_and_one_too_few_does_not(self):
+        """A shaft in two bearings that moves freely along its axis: two zeros in its file."""
+        self.assert_passes(FREE_ALONG_ITS_AXIS)
+        with h5py.File(self.folder / "blade.h5", "r+") as file:
+            zeros = np.flatnonzero((file["eigenvalue"][:] == 0.0).all(axis=0))
+            self.assertEqual(len(zeros), 2)
+            for name in ("eigenvalue", "dense_output"):
+                values = file[name][:]
+                values[:, zeros[0]] += 1.0  # 1/s
+                file[name][:] = values
+        self.assertEqual(self.verify().returncode, 1)
 
     def test_where_qz_is_off_extended_precision_judges(self):
         self.assert_passes(self.states_of_mixed_units())
