@@ -93,7 +93,7 @@ std::shared_ptr<const IndependentParts> joined_pairs(const IndependentParts& par
                                                      const std::vector<bool>& which,
                                                      std::vector<int>& numbers);
 
-/// Mass, damping and stiffness at a place of the path, n x n, and the tangent space there; `reactions` as
+/// Mass, damping and stiffness at a place of the path, n x n, and the tangent space there; `changes` as
 /// above.
 struct PlaceOnPath {
   Matrix M, C, K;
