@@ -21,9 +21,11 @@ using namespace py::literals;
 namespace eigentrail::python {
 namespace {
 
-/// The model of single values; a large one is projected so that it is exact at each of them.
-TraceSetup prepare_at(const Scene& scene, const Options& options, const std::vector<double>& values) {
+/// The model of single values, if there are none of that where the trace begins; a large one is projected so
+/// that it is exact at each of them.
+TraceSetup prepare_at(const Scene& scene, const Options& options, std::vector<double>& values) {
   TraceSetup setup = prepare_trace(scene, options, Purpose::operating_point);
+  if (values.empty()) values.push_back(setup.options.from);
   project_at_if_large(setup.model, setup.options, values);
   return setup;
 }
@@ -33,8 +35,6 @@ py::dict spectrum(const Scene& scene, const Options& options, std::vector<double
   std::vector<OperatingPoint> points;
   std::vector<std::optional<Matrix>> errors;
   unlocked([&] {
-    if (values.empty())
-      values.push_back(prepare_trace(scene, options, Purpose::operating_point).options.from);
     const TraceSetup setup = prepare_at(scene, options, values);
     points = operating_points(setup, values);
     for (const OperatingPoint& point : points)
@@ -66,7 +66,8 @@ py::dict sensitivities(const Scene& scene, const Options& options, double value,
   Sensitivities found;
   std::vector<std::string> names;
   unlocked([&] {
-    const TraceSetup setup = prepare_at(scene, options, {value});
+    std::vector<double> values{value};
+    const TraceSetup setup = prepare_at(scene, options, values);
     const Parameters& parameters = setup.model->description().parameters;
     found = sensitivities_at(setup, value, free_parameters(parameters), guess);
     for (const int parameter : found.parameters)

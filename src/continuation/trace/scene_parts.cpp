@@ -148,8 +148,9 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
   const std::vector<double> places = places_of(options, narrow);
   CoefficientMatrices samples;
   EvaluationCounts counts = model.new_counts();
-  Matrix A, changes;
-  double largest = 0.0;
+  Matrix A, K;  // K where reactions are largest
+  Vector reactions;
+  double p = 0.0, largest = -1.0;
   for (const double place : places) {
     Vector reaction = lambda;
     const auto there = linearize_at_rest(problem, place, x, reaction, counts);
@@ -160,14 +161,17 @@ SceneOnRange scene_on_range(const PathProblem& problem, const TraceOptions& opti
     add(there->C, structure.constant_damping, samples.C);
     add(there->K, structure.constant_stiffness, samples.K);
     const double size = reaction.size() > 0 ? reaction.cwiseAbs().maxCoeff() : 0.0;
-    if (changes.size() > 0 && !(size > largest)) continue;
+    if (!(size > largest)) continue;
     largest = size;
-    changes = changes_of_stiffness(problem, place, x, reaction, there->K[0].dense(), counts);
+    p = place;
+    reactions = reaction;
+    K = there->K[0].dense();
   }
   const ConstraintFactorization constraints{SystemMatrix(A)};
   const Eigen::Index freedoms = model.n_coordinates() - constraints.rank();
   if (freedoms < 2 || freedoms > most_freedoms) return {true, nullptr};
-  return {true, find_independent_parts(samples, separated_basis(constraints), changes)};
+  return {true, find_independent_parts(samples, separated_basis(constraints),
+                                       changes_of_stiffness(problem, p, x, reactions, K, counts))};
 }
 
 }  // namespace eigentrail
