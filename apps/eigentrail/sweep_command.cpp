@@ -94,10 +94,12 @@ struct SweepRow {
 /// Places of a step at which damping ratios are looked at, beside its ends.
 constexpr int places_per_step = 16;
 
-std::optional<double> first_of(EventKind kind, const std::vector<Event>& events, double from) {
+std::optional<double> first_of(Onset onset, const std::vector<Event>& events,
+                               const std::vector<StableRange>& ranges, double from) {
   std::optional<double> first;
   for (const Event& event : events) {
-    if (event.kind == kind && (!first || std::abs(event.p - from) < std::abs(*first - from))) first = event.p;
+    const bool is_nearer = !first || std::abs(event.p - from) < std::abs(*first - from);
+    if (is_nearer && onset_at(event, ranges) == onset) first = event.p;
   }
   return first;
 }
@@ -132,8 +134,8 @@ void trace_into(SweepRow& row, const TraceSetup& setup, const std::string& path,
   row.file = std::filesystem::path(path).filename().string();
   row.points = result.nodes;
   row.reached = result.reached;
-  row.flutter = first_of(EventKind::flutter, result.events, setup.options.from);
-  row.divergence = first_of(EventKind::divergence, result.events, setup.options.from);
+  row.flutter = first_of(Onset::flutter, result.events, found.ranges, setup.options.from);
+  row.divergence = first_of(Onset::divergence, result.events, found.ranges, setup.options.from);
   row.damping = least_damping(found.path);
   row.exit_code = result.status == TraceStatus::completed ? done : numbers_failed;
   row.reason = result.message;

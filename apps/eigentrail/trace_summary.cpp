@@ -99,6 +99,7 @@ void print_modes(const TraceSummary& trace, const std::vector<Permanence>& perma
 /// A special point, and the interval in which it lies if the data have errors.
 struct Found {
   Event event;
+  Onset onset;
   std::string interval;
 };
 
@@ -106,7 +107,7 @@ struct Found {
 std::vector<Found> sorted_events(const TraceSummary& trace) {
   std::vector<Found> found;
   for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
-    found.push_back({trace.result.events[i], ""});
+    found.push_back({trace.result.events[i], onset_at(trace.result.events[i], trace.ranges), ""});
     Event& event = found.back().event;
     event.s = without_rounding(event.s, trace.result.s_ref);
     event.p = without_rounding(event.p, trace.setup.options.from, trace.setup.options.to);
@@ -116,14 +117,6 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
   }
   std::ranges::stable_sort(found, [](const Found& a, const Found& b) { return a.event.p < b.event.p; });
   return found;
-}
-
-/// Also a collision on the imaginary axis, where an undamped system begins to flutter. Where Re s only
-/// touches zero nothing begins.
-bool is_onset(const Event& event) {
-  const bool may_be = event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
-                      event.kind == EventKind::collision;
-  return may_be && event.direction != 0;
 }
 
 /// "forward", "backward", "mixed" or "" for the mode of an event.
@@ -186,7 +179,7 @@ void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) 
     std::vector<std::string> row = event_row(found.event, parameter);
     std::string& remark = row.back();
     remark += (remark.empty() || found.interval.empty() ? "" : ", ") + found.interval;
-    (is_onset(found.event) ? onsets : others).push_back(std::move(row));
+    (found.onset != Onset::none ? onsets : others).push_back(std::move(row));
   }
   print_section(stdout, "  onset of instability", onsets);
   print_section(stdout, "  critical speeds", critical);

@@ -66,7 +66,32 @@ StableRange join(const RecordedPath& path, const AxisStretch* first, const AxisS
   return range;
 }
 
+/// Whether modes grow on one side of an event only: one range ends or begins there.
+bool bounds_growth(const Event& event, const std::vector<StableRange>& ranges) {
+  std::ptrdiff_t ends = 0;
+  for (const StableRange& range : ranges)
+    for (const RangeEnd& end : {range.from, range.to})
+      ends += end.p == event.p && end.cause == event_name(event.kind) ? 1 : 0;
+  return ends == 1;
+}
+
 }  // namespace
+
+Onset onset_at(const Event& event, const std::vector<StableRange>& ranges) {
+  switch (event.kind) {
+    case EventKind::flutter:
+    case EventKind::divergence:
+    case EventKind::collision:  // where Re s only touches zero nothing begins
+      if (event.direction == 0) return Onset::none;
+      return event.s.imag() == 0.0 ? Onset::divergence : Onset::flutter;
+    case EventKind::fold:
+    case EventKind::cusp:
+    case EventKind::branch_point:
+      return event.direction != 0 || bounds_growth(event, ranges) ? Onset::divergence : Onset::none;
+    default:
+      return Onset::none;
+  }
+}
 
 std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
                                        const EigenvalueAccuracy& accuracy) {

@@ -30,6 +30,51 @@ C = [[["c - p"]]]
 K = [[["1 - p/d"]]]
 """
 
+ZIEGLER = """\
+[parameters]
+p = 0.0
+k = 1.0
+
+[trace]
+parameter = "p"
+from = 0
+to = 5
+
+[matrix_family]
+M = [[[3, 1], [1, 1]]]
+K = [[["2 * k - p", "p - k"], ["-k", "k"]]]
+"""
+
+PENDULUM = """\
+[parameters]
+length = 0.5
+omega = 0.0
+
+[trace]
+parameter = "omega"
+from = 0
+to = 6
+
+[frame]
+angular_velocity = [0, 0, "omega"]
+
+[gravity]
+acceleration = [0, 0, -9.81]
+
+[[body]]
+name = "ball"
+mass = 1.0
+inertia = [0, 0, 0]
+position = [0, 0, "-length"]
+markers = { hinge = [0, 0, "length"] }
+
+[[revolute]]
+name = "hinge"
+from = [0, 0, 0]
+to = "ball.hinge"
+axis = [0, 1, 0]
+"""
+
 
 class Sweep(CommandTest):
     def setUp(self):
@@ -72,6 +117,25 @@ class Sweep(CommandTest):
         self.assertEqual([row["divergence"] != "" for row in self.index()], [True, True, False])
         for row in self.index()[:2]:
             self.assertAlmostEqual(float(row["divergence"]), float(row["d"]), 9)
+
+    def test_index_has_onsets_of_undamped_systems(self):
+        # s^2 + 1 - p/d = 0: divergence at p = d.
+        self.write("scene.toml", OSCILLATOR.replace('C = [[["c - p"]]]', "C = [[[0]]]"))
+        self.run_well("sweep", "scene.toml", "--vary", "d=1,1.5", "-o", "out", "--quiet")
+        for row in self.index():
+            self.assertEqual(row["flutter"], "")
+            self.assertAlmostEqual(float(row["divergence"]), float(row["d"]), 9)
+        # Follower force on two links (M = [[3, 1], [1, 1]], K = [[2 - p, p - 1], [-1, 1]]): flutter at 7/2 - sqrt(2).
+        self.write("scene.toml", ZIEGLER)
+        self.run_well("sweep", "scene.toml", "--vary", "k=1,2", "-o", "links", "--quiet")
+        for row in self.index("links/index.csv"):
+            self.assertEqual(row["divergence"], "")
+            self.assertAlmostEqual(float(row["flutter"]), float(row["k"]) * (3.5 - 2 ** 0.5), 9)
+        # A pendulum on a hinge that turns about the vertical leaves it at sqrt(g / length).
+        self.write("scene.toml", PENDULUM)
+        self.run_well("sweep", "scene.toml", "--vary", "length=0.5,0.6", "-o", "pendulum", "--quiet")
+        for row in self.index("pendulum/index.csv"):
+            self.assertAlmostEqual(float(row["divergence"]), ((9.81 / float(row["length"]))) ** 0.5, 9)
 
     def test_number_of_threads_does_not_matter(self):
         self.run_well(*SWEEP, "-o", "out", "--jobs", "1", "--quiet")

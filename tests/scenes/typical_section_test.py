@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import fsolve, least_squares
 from scipy.special import hankel2
 
-from program import edited
+from program import SCENES, edited
 from rotor_test_case import RotorTest, upper
 from scene_test_case import CLOSE
 
@@ -114,6 +114,8 @@ class TypicalSection(RotorTest):
         V = np.sqrt(I * p["w_a"]**2 / (2 * np.pi * p["density"] * p["b"]**2 * (p["a"] + 1 / 2)))
         (event,) = self.special_points(self.trace_scene(), "branch_point")
         self.assertAlmostEqual(event[0], V, delta=1e-9 * V)
+        summary = self.run_well("trace", SCENES / "typical_section.toml", "-o", "said.h5")
+        self.assertRegex(summary, r"onset of instability\n +flutter .*\n +branch_point +V = \S+ .*unstable above")
 
     def test_jones_is_within_a_percent_of_theodorsen(self):
         """His function misses Theodorsen's by up to 2.4 %, and the flutter speed by half of that."""

@@ -2,11 +2,13 @@
 hanging, w^2 = (g/l - W^2) m l^2/I; standing out at cos a = g/(l W^2), w^2 = W^2 sin^2 a  m l^2/I."""
 
 import math
+import re
 import unittest
 
 import h5py
 import numpy as np
 
+from program import SCENES
 from scene_test_case import SceneTest
 
 G, LENGTH, RADIUS = 9.81, 0.5, 0.1
@@ -75,6 +77,9 @@ class WhirlingPendulum(SceneTest):
             pitchforks = self.event_parameters(self.trace_scene("--branch", branch), "branch_point")
             self.assertEqual(len(pitchforks), 1)
             self.assertAlmostEqual(pitchforks[0], BRANCH_POINT, delta=1e-9)
+            summary = self.run_well("trace", SCENES / "whirling_pendulum.toml", "--branch", branch, "-o", f"{branch}.h5")
+            said = re.findall(r"onset of instability\n +branch_point .*unstable above", summary)
+            self.assertEqual(len(said), 1 if branch == "1" else 0)
 
     def test_from_above(self):
         text = self.scene_text().replace('position = [0, 0, "-length"]',

@@ -33,4 +33,14 @@ struct StableRange {
 std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
                                        const EigenvalueAccuracy& accuracy);
 
+/// What begins, or ends, at a special point.
+enum class Onset {
+  none,
+  flutter,    ///< a pair grows: Re s changes its sign, or frequencies without damping coalesce
+  divergence  ///< a real eigenvalue grows, or an equilibrium loses its stability at a fold or a branch point
+};
+
+/// `ranges`: those of the whole trace.
+Onset onset_at(const Event& event, const std::vector<StableRange>& ranges);
+
 }  // namespace eigentrail

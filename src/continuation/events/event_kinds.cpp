@@ -88,7 +88,7 @@ constexpr std::array<EventKindInfo, 13> kinds{{
     {EventKind::crossing, "crossing", "crossing", "circle-open", false, no_remark},
     {EventKind::veering, "veering", "veering", "bowtie-open", false, veering_remark},
     {EventKind::fold, "fold", "fold", "triangle-left", true, no_remark},
-    {EventKind::branch_point, "branch_point", "branch point", "asterisk-open", true, no_remark},
+    {EventKind::branch_point, "branch_point", "branch point", "asterisk-open", true, stability_remark},
     {EventKind::damping_ratio,
      "damping_ratio",
      "damping ratio",

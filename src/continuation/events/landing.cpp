@@ -226,7 +226,8 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
     rules.rounding = at_point_;
     rules.begin = 0.0;
     rules.end = h;
-    rules.slack = beyond * std::abs(h);
+    // What is zero on a branch point is double, and known as that.
+    rules.slack = frame.on_branch_point(step_.right) ? at_point_ : beyond * std::abs(h);
     rules.looks = most_looks - looks;
     const Walk found = walk(distance, rules, look);
     looks += found.looks;

@@ -6,7 +6,9 @@
 #include "continuation/events/event_record.hpp"
 #include "continuation/step/step_error.hpp"
 #include "continuation/tracks/members.hpp"
+#include "core/matrix_series.hpp"
 #include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/modes/invariants.hpp"
 #include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
@@ -15,6 +17,9 @@ namespace {
 /// As a share of the range: an event this close to the branch point on the bridge is that branch point. The
 /// place of a double eigenvalue is known to about the square root of rounding.
 constexpr double at_branch_point = 1e-8;
+/// As a share of the range: where the eigenvalue that is zero at a branch point is looked at, far above
+/// rounding.
+constexpr double close_to_branch_point = 1e-6;
 /// Product of the shapes of a mode and of the kernel, both of unit norm, from which on they are one motion:
 /// the kernel is that of a mode to the accuracy of the projection, or it is another motion.
 constexpr double same_motion = 0.9;
@@ -73,6 +78,23 @@ void keep_vanishing_motion(const EventSearch& search, const PathNode& node, Even
   if (!(std::abs(inertia.dot(of_mode)) >= same_motion)) event.modes.clear();
 }
 
+/// 1 where an eigenvalue that is zero at a branch point is real and grows above it on the path of the trace,
+/// -1 where it does below. Beside the point such a one is real, and any other one of a pair that decays or
+/// oscillates there.
+int direction_of_growth(const EventSearch& search, const PathNode& node) {
+  const double small = close_to_branch_point * search.frame().coordinate_range();
+  const auto growing = [&](double distance) {
+    Eigen::Index count = 0;
+    for (const Track& track : node.tracks) {
+      const ComplexVector roots = block_roots(evaluate_series(track.functions, distance));
+      count += (roots.array().real() > 0.5 * roots.array().abs()).count();
+    }
+    return count;
+  };
+  const auto change = static_cast<double>(growing(small) - growing(-small)) * search.frame().speed(node);
+  return change > 0.0 ? 1 : change < 0.0 ? -1 : 0;
+}
+
 }  // namespace
 
 FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h) {
@@ -111,6 +133,7 @@ FoundEvents find_branch_point(const EventSearch& search, const PathNode& node) {
   Event event;
   event.kind = EventKind::branch_point;
   event.p = search.frame().branch_point.p;
+  event.direction = direction_of_growth(search, node);
   event.retrackings = 1;
   event.node = search.node;
   keep_vanishing_motion(search, node, event);

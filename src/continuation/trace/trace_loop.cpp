@@ -494,6 +494,7 @@ void TraceLoop::log_branch_point(const PathNode& node) {
   FoundEvents found = find_branch_point(search_, node);
   if (found.events.empty()) return;
   const int choice = choice_at(options_.branch, state_.branches.passed);
+  if (choice != 1) found.events.front().direction = 0;  // what grows straight on says nothing of that path
   if (!options_.events.other_paths && choice == 1) return log(std::move(found));
   BranchSurvey survey = survey_branch_point(points_, node, choice, place_text(options_, node.p));
   state_.branches.other = std::move(survey.other);
