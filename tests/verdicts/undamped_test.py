@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+from program import SCENES
 from verdicts_test import MODELS, VerdictTest
 
 PLACES = 25
@@ -80,6 +81,36 @@ class RandomFamilies(VerdictTest):
                     at = {mode: s for _, mode, s in self.eval_rows(file, [place])}
                     for mode in event["modes"].split(";"):
                         self.assertLess(abs(at[f"mode {mode}"] - double), 1e-5 * abs(double))
+
+    def test_frequencies_that_meet_behind_a_range_of_growth(self):
+        # Ziegler's column from far above its load: real eigenvalues become pairs at 7/2 + sqrt(2), and pairs meet on the
+        # axis at 7/2 - sqrt(2). Some of them are followed as s, their opposites as 1/s.
+        for begin in (7, 7.5, 8, 20, 30):
+            for tolerance in (1e-6, 1e-8):
+                with self.subTest(begin=begin, tolerance=tolerance):
+                    self.run_well("trace", SCENES / "ziegler_column.toml", "--set", "damping=0", "--from", begin, "--to", 0,
+                                  "--tolerance", tolerance, "-o", "column.h5", "--force", "--quiet")
+                    places = self.places("column.h5", "collision")
+                    self.assertEqual(len(places), 3)
+                    for place, exact in zip(places, [3.5 - 2**0.5] + 2 * [3.5 + 2**0.5]):
+                        self.assertAlmostEqual(place, exact, delta=1e-9)
+                    self.assertEqual(self.ranges("column.h5"), [("marginal", places[0], 0.0)])
+        # Two equal unstable motions, held by gyroscopic forces: s = +-5/2 p j +- sqrt(1 - 25/4 p^2), on the axis from |p| = 2/5 on.
+        for begin, end in ((2, -1), (1, -1), (-1, 1), (-1, 2)):
+            with self.subTest(begin=begin, end=end):
+                file = self.trace(f"""[trace]
+parameter = "p"
+from = {begin}
+to = {end}
+tolerance = 1e-8
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[[0, 0], [0, 0]], [[0, 5], [-5, 0]]]
+K = [[[-1, 0], [0, -1]]]
+""", "--force")
+                for place, exact in zip(self.places(file, "collision"), (-0.4, 0.4), strict=True):
+                    self.assertAlmostEqual(place, exact, delta=1e-11)
+                self.assertEqual(len(self.ranges(file)), 2)
 
     def check(self, matrices, begin, end):
         M, C, K = ([A.tolist() for A in series] for series in matrices)

@@ -70,8 +70,8 @@ std::optional<Event> event_of(const EventSearch& search, const PathNode& node, c
   const bool is_pair = modes.size() == 1 && track.pair.is_real;
   if (is_pair && meeting.kind == EventKind::veering) return std::nullopt;
   // Eigenvalues that are equal only because they are infinite, where the mass is singular, are no event.
-  if (track.pair.chart == Chart::reciprocal && std::abs(track.roots.mean()) * search.problem().s_max <= 1.0)
-    return std::nullopt;
+  const double size = track.roots(meeting.members).cwiseAbs().maxCoeff();
+  if (track.pair.chart == Chart::reciprocal && size * search.problem().s_max <= 1.0) return std::nullopt;
   if (meeting.kind == EventKind::veering && !settle_veering(search, node, track, meeting))
     return std::nullopt;
   const double speed = search.frame().speed(node);

@@ -192,14 +192,16 @@ bool is_complex(const Track& track, double reference, double merged_distance) {
              merged_distance * std::max(std::abs(track.roots[0]), reference);
 }
 
-/// In a real block, a complex pair is two members, of which only that with Im > 0 has a mode.
+/// In a real block, a complex pair is two members, of which only that with Im s > 0 has a mode.
 void end_conjugates_within(Track& track, double reference, double merged_distance,
                            std::vector<OnePair>& pairs) {
   if (!track.pair.is_real) return;
   for (Eigen::Index i = 0; i < track.size(); ++i) {
     int& below = track.modes[static_cast<std::size_t>(i)];
     const Complex root = track.roots[i];
-    if (below < 0 || -2.0 * root.imag() <= merged_distance * std::max(std::abs(root), reference)) continue;
+    const bool is_lower = chart_value(root, track.pair.chart).imag() < 0.0;
+    const double apart = 2.0 * std::abs(root.imag());
+    if (below < 0 || !is_lower || apart <= merged_distance * std::max(std::abs(root), reference)) continue;
     const Eigen::Index other = conjugate_of(track.roots, i);
     int& above = track.modes[static_cast<std::size_t>(other)];
     if (above >= 0) pairs.push_back({std::min(above, below), std::max(above, below)});

@@ -34,8 +34,8 @@ void forget_partner(int mode, ModeNumbers& numbers) {
   numbers.partners.erase(mode);
 }
 
-/// Assigns the mode of every complex pair of a real block to the member with Im s > 0. Two modes that have
-/// become a pair keep the smaller number and are noted as partners.
+/// Assigns the mode of every complex pair of a real block to the member with Im s > 0, in either chart. Two
+/// modes that have become a pair keep the smaller number and are noted as partners.
 void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
   for (Eigen::Index i = 0; i < roots.size(); ++i) {
     if (roots[i].imag() == 0.0) continue;
@@ -53,7 +53,7 @@ void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
     }
     a = upper;
     b = followed ? Track::no_mode : Track::guard;
-    if (roots[i].imag() < 0.0) std::swap(a, b);
+    if (chart_value(roots[i], track.pair.chart).imag() < 0.0) std::swap(a, b);
   }
 }
 
