@@ -46,7 +46,10 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
   const auto distance = [&](std::size_t mode) { return std::abs(spectrum.modes[mode].s - point.s); };
   std::sort(nearest.begin(), nearest.end(),
             [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-  const std::size_t own = function.kind == BoundaryKind::coalescence ? 2 : 1;
+  // What is lost without damping is zero twice, and known to the root of rounding only.
+  const bool is_double = function.kind == BoundaryKind::divergence && nearest.size() > 1 &&
+                         distance(nearest[1]) <= std::sqrt(vanishing) * window.reference();
+  const std::size_t own = function.kind == BoundaryKind::coalescence || is_double ? 2 : 1;
   point.number = static_cast<int>(nearest[0]) + 1;
   point.gap = nearest.size() > own ? distance(nearest[own]) : INFINITY;
   for (std::size_t i = own; i < nearest.size(); ++i) {

@@ -13,6 +13,8 @@ constexpr double longest_correction = 0.03;
 /// If |grad g| over the scaled window is less than this multiple of |s| (divergence: of the norm of K), g
 /// counts as constant: its zero set is no curve.
 constexpr double flat = 1e-8;
+/// Relative distance of two eigenvalues that are one, with a margin on the root of rounding.
+constexpr double double_root = 1e-6;
 
 /// The point of the boundary near a seed, by Newton's method. The first attempt moves along the line on which
 /// the seed was found, so a seed on an edge stays there. Further attempts move along grad g, P and Q.
@@ -75,7 +77,11 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
                           : std::max(there.pair.Lambda.norm(), window.reference());
   if (!gradients || !(gradients->row(function.row()).norm() > flat * size)) return start;
   start.point = expand_curve(window, function, there, Place::Zero(), start.counts);
-  if (seed.kind != BoundaryKind::coalescence || !start.point) return start;
+  if (!start.point) return start;
+  // Where two undamped modes meet, Re s is zero on one side at all places: they have a seed of their own.
+  const double scale = std::max(std::abs(start.point->s), window.reference());
+  if (seed.kind == BoundaryKind::flutter && start.point->gap <= double_root * scale) start.point.reset();
+  if (seed.kind != BoundaryKind::coalescence) return start;
   // Damped modes do not meet; the curve would go on where their mean is no mode.
   if (start.point->functions.row(0).cwiseAbs().maxCoeff() <= flat * size) return start;
   start.point.reset();

@@ -10,12 +10,11 @@
 namespace eigentrail {
 namespace {
 
+/// Of the traces of lines. Instabilities below this multiple of max(|s|, reference) have no sign: beside a
+/// coalescence of undamped modes their signs are errors of the dense output.
 constexpr double scan_tolerance = 1e-6;
 constexpr int steps_per_line = 16;  ///< least number of steps of a trace
 constexpr int samples_per_step = 16;
-/// Instabilities below this multiple of max(|s|, reference) have no sign: in a system without damping their
-/// signs are rounding.
-constexpr double vanishing_growth = 1e-9;
 constexpr int halvings = 40;
 /// Largest instability, relative to max(|s|, reference), at a located sign change that counts as a zero.
 constexpr double largest_jump = 1e-3;
@@ -49,7 +48,7 @@ class Scanner {
   void add_extremum(Eigen::Index mode, double before, double here, double behind);
   void report(const TraceResult& result);
   bool has_sign(Complex s) const {
-    return std::abs(instability(options_, s)) > vanishing_growth * std::max(std::abs(s), scan_.s_ref);
+    return std::abs(instability(options_, s)) > scan_tolerance * std::max(std::abs(s), scan_.s_ref);
   }
 
   const Window& window_;
@@ -173,13 +172,13 @@ void Scanner::add_extremum(Eigen::Index mode, double before, double here, double
   if (!(sign * (here - before) > 0.0 && sign * (here - behind) > 0.0)) return;
   const Complex s = last_->s[mode];
   if (options_.damping_ratio && s.imag() == 0.0) return;
-  const double rounding = vanishing_growth * std::max(std::abs(s), scan_.s_ref);
-  if (sign * (here - before) < rounding && sign * (here - behind) < rounding) return;
+  const double least = scan_tolerance * std::max(std::abs(s), scan_.s_ref);
+  if (sign * (here - before) < least && sign * (here - behind) < least) return;
   scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
 }
 
-/// Seeds where modes without damping coalesce. Notes folds of the equilibrium, whose curves are not followed;
-/// divergence seeds at a fold are removed.
+/// Seeds where modes without damping coalesce, or a stiffness is lost. Notes folds of the equilibrium, whose
+/// curves are not followed; divergence seeds at a fold are removed.
 void Scanner::report(const TraceResult& result) {
   for (const Event& event : result.events) {
     const Place place = line_.at(window_.scaled(line_.along, event.p));
@@ -189,12 +188,16 @@ void Scanner::report(const TraceResult& result) {
         return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
       });
     }
-    const bool on_axis = std::abs(event.s.real()) <= 1e-6 * std::abs(event.s);
-    if (options_.damping_ratio || event.kind != EventKind::collision || event.modes.size() != 2 ||
-        event.s.imag() == 0.0 || !on_axis)
-      continue;
+    // Neither has modes whose growth changes its sign: where nothing is damped, they oscillate on one side.
+    const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::branch_point;
+    if (options_.damping_ratio || event.direction == 0 || !may_be) continue;
     const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];
     const Place direction = Place::Unit(line_.along);
+    if (event.s == 0.0) {
+      scan_.seeds.push_back(
+          {place, direction, BoundaryKind::divergence, 0.0, {node.x.col(0), node.lambda.col(0), true}});
+      continue;
+    }
     const Place beside =
         place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
     scan_.seeds.push_back(

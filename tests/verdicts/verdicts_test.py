@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 from command_test_case import CommandTest
-from program import SCENES
+from program import SCENES, edited
 
 MODELS = pathlib.Path(__file__).parent / "models"
 
@@ -415,6 +415,43 @@ class UndampedBoundaries(VerdictTest):
             for p, q, s in zip(found["p"][:], found["q"][:], found["eigenvalue"][:]):
                 self.assertLess(abs(p - (1 - q / 10)), 1e-8)
                 self.assertLess(abs(s ** 2 + (4 + q / 5) / 2), 1e-6)
+
+    def test_a_stiffness_that_is_lost_without_damping_is_followed(self):
+        # det K = (2 + q - 3/2 p) (4 - q - p) - 0.09 = 0; a pendulum that is turned about the vertical leaves it at sqrt(g / length).
+        self.write("column.toml", """
+            parameters = { p = 2, q = 0 }
+            trace = { parameter = "p", from = 2, to = 0, tolerance = 1e-8 }
+            [matrix_family]
+            M = [[[1, 0], [0, 1]]]
+            K = [[["2 + q", 0.3], [0.3, "4 - q"]], [[-1.5, 0], [0, -1]]]
+            """)
+        pendulum = (SCENES / "whirling_pendulum.toml").read_text(encoding="utf-8")
+        self.write("pendulum.toml", edited(pendulum, "branch = 2", "branch = 1"))
+        determinant = lambda p, q: (2 + q - 1.5 * p) * (4 - q - p) - 0.09
+        for scene, p, q, begin, end, residual in (
+                ("column.toml", "p", "q", -0.5, 0.5, determinant),
+                ("pendulum.toml", "omega", "length", 0.3, 1, lambda omega, length: omega**2 * length / 9.81 - 1)):
+            with self.subTest(scene), self.boundary(scene, "--second", q, "--second-from", begin, "--second-to", end) as found:
+                self.assertEqual(found["curve_kind"][:].tolist(), [b"divergence"])
+                self.assertEqual(found["other_unstable"][:].tolist(), [0] * len(found[p]))
+                self.assertEqual((min(found[q][:]), max(found[q][:])), (begin, end))
+                for place in zip(found[p][:], found[q][:]):
+                    self.assertLess(abs(residual(*place)), 1e-7)
+
+    def test_beside_a_coalescence_no_flutter_is_looked_for(self):
+        # Ziegler's column with springs k, without damping: the load is (7/2 - sqrt(2)) k.
+        self.write("links.toml", """
+            parameters = { load = 0, k = 1, c = 0 }
+            trace = { parameter = "load", from = 0, to = 5, tolerance = 1e-8 }
+            [matrix_family]
+            M = [[[3, 1], [1, 1]]]
+            C = [[["2 * c", "-c"], ["-c", "c"]]]
+            K = [[["2 * k - load", "load - k"], ["-k", "k"]]]
+            """)
+        with self.boundary("links.toml", "--second", "k", "--second-from", 0.5, "--second-to", 2) as found:
+            self.assertEqual(found.attrs["status"], "completed")
+            self.assertEqual(len(found["curve_points"]), 1)
+            np.testing.assert_allclose(found["load"][:], (3.5 - 2**0.5) * found["k"][:], rtol=1e-8)
 
     def test_gyroscopic_stabilization_is_followed(self):
         # x'' - 2 W y' - x = 0, y'' + 2 W x' - b y = 0 is stable above W = (1 + sqrt(b)) / 2, where s^4 = b.
