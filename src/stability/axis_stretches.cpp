@@ -246,18 +246,6 @@ std::optional<AxisCut> missing_cut(const RecordedPath& path, const AxisStretch& 
   return std::nullopt;
 }
 
-/// The stability of a stretch from all its samples; empty if no sample has a verdict.
-std::optional<Stability> verdict(const AxisStretch& stretch) {
-  std::optional<Stability> result;
-  for (const AxisSample& here : stretch.samples) {
-    const auto told = verdict(here);
-    if (told == Stability::unstable) return told;
-    // One stable sample makes the stretch stable, also if some real part is zero at a stored point.
-    if (told && result != Stability::stable) result = told;
-  }
-  return result;
-}
-
 /// Whether a sign change is that of a fold or branch point, where a mode passes zero: the place of the event
 /// is that of the equilibrium on a bridge, which differs a little from that of the mode.
 bool is_of_turn(const RecordedPath& path, const AxisCut& turn, const AxisCut& change) {
@@ -309,6 +297,21 @@ Signs signs_of(const AxisStretch& stretch) {
   return signs;
 }
 
+/// The stability of a stretch from all its samples; empty if these do not tell. `signs`: of its modes there.
+std::optional<Stability> verdict(const AxisStretch& stretch, const Signs& signs) {
+  std::optional<Stability> result;
+  for (const AxisSample& here : stretch.samples) {
+    const auto told = verdict(here);
+    if (told == Stability::unstable) return told;
+    // One stable sample makes the stretch stable, also if some real part is zero at a stored point.
+    if (told && result != Stability::stable) result = told;
+  }
+  // Not if a mode that is missing there is never told from zero.
+  const bool is_open =
+      std::any_of(signs.begin(), signs.end(), [](const auto& mode) { return mode.second == Sign::open; });
+  return result == Stability::stable && is_open ? std::nullopt : result;
+}
+
 /// Carries signs over a cut to those that are open behind it. Where modes meet the axis and do not pass it,
 /// their signs say nothing about the other side. Where the path turns or branches, one passes that is not
 /// known.
@@ -328,7 +331,11 @@ void carry(const Signs& from, const AxisCut& cut, Signs& to) {
 /// Sets the stability of all stretches: by their samples where these tell, else by the signs of all modes.
 void judge_stretches(std::vector<AxisStretch>& stretches) {
   std::vector<Signs> signs;
-  for (const AxisStretch& stretch : stretches) signs.push_back(signs_of(stretch));
+  std::vector<std::optional<Stability>> told;
+  for (const AxisStretch& stretch : stretches) {
+    signs.push_back(signs_of(stretch));
+    told.push_back(verdict(stretch, signs.back()));
+  }
   for (std::size_t i = 1; i < signs.size(); ++i) carry(signs[i - 1], stretches[i].from, signs[i]);
   for (std::size_t i = signs.size(); i-- > 1;) carry(signs[i], stretches[i].from, signs[i - 1]);
   for (std::size_t i = 0; i < signs.size(); ++i) {
@@ -341,7 +348,7 @@ void judge_stretches(std::vector<AxisStretch>& stretches) {
     const Stability by_signs = !stretch.growing.empty() ? Stability::unstable
                                : all_decay              ? Stability::stable
                                                         : Stability::marginal;
-    stretch.stability = verdict(stretch).value_or(by_signs);
+    stretch.stability = told[i].value_or(by_signs);
   }
 }
 

@@ -131,6 +131,12 @@ class Spectrum(CommandTest):
             self.assertAlmostEqual(row["natural_frequency_hz"] * 2 * np.pi, abs(s), delta=1e-12 * abs(s))
             self.assertAlmostEqual(row["damping_ratio"], -s.real / abs(s), delta=1e-12)
 
+    def test_a_value_does_not_depend_on_the_others(self):
+        # From the equilibrium at 5 rad/s Newton's method comes to another one at 40 rad/s.
+        scene = SCENES / "rotating_mass.toml"
+        alone, behind = (self.run_well("spectrum", scene, "--at", *values).split("omega = 40 ")[1] for values in (["40"], ["5", "40"]))
+        self.assertEqual(alone, behind)
+
     def test_begins_where_the_trace_does_and_names_what_moves(self):
         lines = self.run_well("spectrum", self.write_blade()).splitlines()
         self.assertTrue(any(line.startswith("omega = 100") for line in lines))
@@ -307,6 +313,39 @@ class Events(CommandTest):
         self.assertRegex(summary, r"onset of instability\n +divergence +p = 1 .*\n +other special points\n +collision +p = 0\.9975 ")
         self.assertIn("2 special points; `eigentrail events` lists them", self.run_well("info", "loci.h5"))
         self.assertEqual(json.loads(self.run_well("info", "loci.h5", "--json"))["events"], 2)
+
+
+class Notes(CommandTest):
+    def test_a_path_that_turns_back_says_that_its_end_was_not_reached(self):
+        # Two springs of length sqrt(5)/2 push the load up: over the fold at P = 4.29 there is no equilibrium near them.
+        spring = f'[[spring]]\nfrom = [{{}}, 0, 0]\nto = "load"\nstiffness = 100\nfree_length = {5**0.5 / 2}\n'
+        self.write("scene.toml", """[parameters]
+P = 0
+[trace]
+parameter = "P"
+from = 0
+to = 8
+[[point]]
+name = "load"
+mass = 1
+position = [0, 0, 0.5]
+[[fixed]]
+point = "load"
+coordinate = "x"
+[[fixed]]
+point = "load"
+coordinate = "y"
+[[force]]
+point = "load"
+components = [0, 0, "-P"]
+[[drag]]
+point = "load"
+coefficient = 0.3
+""" + spring.format(-1) + spring.format(1))
+        summary = self.run_well("trace", "scene.toml", "-o", "loci.h5")
+        self.assertIn("the path turned back, and the trace ended where it began: P = 8 was not reached", summary)
+        self.assertRegex(summary, r"onset of instability\n +fold +P = 4\.29")
+        self.assertNotIn("turned back", self.run_well("trace", "scene.toml", "--to", "4", "-o", "loci.h5", "--force"))
 
 
 class Info(CommandTest):

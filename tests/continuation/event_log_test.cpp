@@ -99,13 +99,11 @@ TEST_F(Log, APairThatTouchesTheRealAxisStillPassesTheImaginaryOne) {
 }
 
 TEST_F(Log, RecordsWhatIsNewAndOnTheRange) {
-  std::vector<std::string> notes;
   const EventLog log{events, range, thresholds};
   const Event inside = event_at(EventKind::flutter, 0.3, {0.0, 2.0}, {1});
   const Event outside = event_at(EventKind::flutter, 1.1, {0.0, 2.0}, {1});
-  record(log, {{inside, inside, outside}, {"a note"}}, events, notes);
+  record(log, {inside, inside, outside}, events);
   EXPECT_EQ(events.size(), 1U);
-  EXPECT_EQ(notes.size(), 1U);
 }
 
 TEST_F(Log, KnowsVeeringsByModesAndComplexPlace) {

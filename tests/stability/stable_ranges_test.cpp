@@ -261,6 +261,16 @@ TEST(StableRanges, ARigidBodyModeIsNoGrowth) {
   }
 }
 
+TEST(StableRanges, AModeThatIsMissingOnAStepDoesNotDecayThere) {
+  TracedRanges traced = traced_family("from = 1\nto = 3\nmax_step = 0.25",
+                                      "M = [[[1, 0], [0, 1]]]\nC = [[[0.1, 0], [0, 0]]]\n"
+                                      "K = [[[1, 0], [0, 9]], [[1, 0], [0, 1]]]");
+  expect_ranges(traced.ranges, {{marginal, 1.0, 3.0, "start", "end"}});
+  std::erase_if(traced.path.steps.at(2).blocks, [](const DenseBlock& block) { return block.modes[0] == 1; });
+  expect_ranges(stable_ranges(traced.path, {}, {1e-8, traced.result.s_ref}),
+                {{marginal, 1.0, 3.0, "start", "end"}});
+}
+
 TEST(StableRanges, ManyRigidBodyModesEndATraceInNoTime) {
   // Two points in space joined by a spring have five rigid-body modes, which cannot be distinguished.
   // Following them through rounding errors took hours.

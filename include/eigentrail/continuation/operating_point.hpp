@@ -35,8 +35,8 @@ struct OperatingPoint {
 };
 
 /// The chosen modes (`modes` of the options), and all that grow, at values of the traced parameter, in its
-/// unit. Each equilibrium starts from the last one found. Cost: a spectrum by QZ and two LU per mode, for
-/// each value.
+/// unit. Where Newton's method finds no equilibrium it starts again from the last one found. Cost: a spectrum
+/// by QZ and two LU per mode, for each value.
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values);
 
 }  // namespace eigentrail

@@ -103,15 +103,13 @@ bool EventLog::is_on_range(const Event& event) const {
          event.p <= std::max(range.from, range.to) + slack;
 }
 
-void record(const EventLog& log, FoundEvents found, std::vector<Event>& events,
-            std::vector<std::string>& notes) {
+void record(const EventLog& log, std::vector<Event> found, std::vector<Event>& events) {
   const auto [low, high] = std::minmax(log.range.from, log.range.to);
-  for (Event& event : found.events) {
+  for (Event& event : found) {
     if (!log.is_on_range(event) || log.has(event)) continue;
     event.p = std::clamp(event.p, low, high);  // by rounding it may lie outside
     events.push_back(std::move(event));
   }
-  for (std::string& note : found.notes) notes.push_back(std::move(note));
 }
 
 }  // namespace eigentrail

@@ -46,10 +46,8 @@ struct EventLog {
   bool any_event(const Condition& holds) const;
 };
 
-/// Appends to `events` what is within the range and not recorded yet, and to `notes` what is noted. `log` is
-/// a view of the same events.
-void record(const EventLog& log, FoundEvents found, std::vector<Event>& events,
-            std::vector<std::string>& notes);
+/// Appends to `events` what is within the range and not recorded yet. `log` is a view of the same events.
+void record(const EventLog& log, std::vector<Event> found, std::vector<Event>& events);
 
 /// Whether two events are the same: of one kind, found on the same or on neighbouring steps if the path may
 /// turn back, not in opposite directions, of the same modes, and in place and half-width no farther apart

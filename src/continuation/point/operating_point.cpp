@@ -196,16 +196,20 @@ std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std:
   }
   RunCounts counts;
   std::vector<OperatingPoint> points;
-  EquilibriumGuess guess;
+  EquilibriumGuess last;
   for (const double p : values) {
-    if (guess.x.size() == 0) guess = {setup.model->initial_guess(parameters_at(problem, p)), Vector(), false};
-    const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
+    // That of the value before only where none is found without: which one is shown depends on no other
+    // value.
+    const EquilibriumGuess own{setup.model->initial_guess(parameters_at(problem, p)), Vector(), false};
+    PathPoint point = reduce_at(problem, p, own, Matrix(), counts);
+    if (point.status != PointStatus::computed && last.x.size() > 0)
+      point = reduce_at(problem, p, last, Matrix(), counts);
     if (point.status != PointStatus::computed) {
       points.push_back({p, point.message});
       continue;
     }
     points.push_back(spectrum_at(setup, point, p));
-    guess = {point.equilibrium.x, point.equilibrium.lambda, true};
+    last = {point.equilibrium.x, point.equilibrium.lambda, true};
   }
   return points;
 }

@@ -66,9 +66,13 @@ constexpr int enough_towards_pole = 10;
 /// Factor by which the stored longest step decreases with each step, so that it covers about the last ten
 /// steps (0.85^10 = 0.2). Nearer to one, old long steps count for longer.
 constexpr double forgetting = 0.85;
-/// A note on a doubtful track is added only while there are fewer notes than this, because such notes may
-/// come at every point.
+/// Notes may come at every point: with more than this only that there are others is said.
 constexpr std::size_t most_notes = 20;
+
+void add_note(TraceResult& result, std::string note) {
+  if (result.notes.size() < most_notes) return result.notes.push_back(std::move(note));
+  if (result.notes.size() == most_notes) result.notes.emplace_back("further notes are left out");
+}
 
 /// Gives numbers to the modes of copies at a point, and counts all modes.
 void number_modes(TraceState& state, const PathNode& node) {
@@ -86,9 +90,8 @@ std::optional<double> way_to_infinity(const PathProblem& problem, const std::str
   const EndedAtInfinity ended =
       end_at_infinity(problem, runs_to_infinity(node, direction), node, state.result.counts);
   for (const std::string& who : ended.who) {
-    if (state.result.notes.size() < most_notes)
-      state.result.notes.push_back(who + equal_modes_text(state.copies, ended.modes) + " ends at " + place +
-                                   ": it runs to infinity");
+    add_note(state.result, who + equal_modes_text(state.copies, ended.modes) + " ends at " + place +
+                               ": it runs to infinity");
   }
   if (ended.behind > 0.0) {
     state.control.restart(ended.behind);
@@ -159,6 +162,10 @@ EnteringModes needed_at(const PathProblem& problem, const TraceOptions& options,
 
 /// The result, with what rounding leaves unknown.
 TraceResult finished(const TraceOptions& options, double seconds, TraceState& state) {
+  const double missing = std::abs(options.to - state.origin.node.p);
+  if (state.result.status == TraceStatus::completed && missing > 0.5 * state.frame.range.length())
+    state.result.notes.push_back("the path turned back, and the trace ended where it began: " +
+                                 place_text(options, options.to) + " was not reached");
   if (state.least_known.error > options.tolerance)
     state.result.notes.push_back(rounding_note(options, state.least_known));
   state.result.seconds = seconds;
@@ -378,8 +385,8 @@ bool TraceLoop::shorten(const Verdict& verdict, double length) {
   const std::vector<int> modes = node.tracks[static_cast<std::size_t>(verdict.track)].modes;
   const std::string who = end_track(problem_, node, static_cast<std::size_t>(verdict.track), state_.ended);
   if (!who.empty())
-    state_.result.notes.push_back(who + equal_modes_text(state_.copies, modes) + " ends at " +
-                                  place_text(options_, node.p) + ": " + verdict.reason);
+    add_note(state_.result, who + equal_modes_text(state_.copies, modes) + " ends at " +
+                                place_text(options_, node.p) + ": " + verdict.reason);
   state_.control.restart(memory.longest_step);
   return true;
 }
@@ -417,29 +424,24 @@ bool TraceLoop::commit(LandedStep landed, const std::vector<bool>& certified) {
   for (std::size_t i = 0; i < certified.size(); ++i) {
     if (certified[i]) step.right.tracks[i].unproven = false;
   }
+  const std::string where = "at " + place_text(options_, step.right.p);
   for (const std::string& who : find_again(problem_, step.right, state_.ended, result.counts))
-    result.notes.push_back(who + " was found again at " + place_text(options_, step.right.p) +
-                           ", by its shape");
+    add_note(result, who + " was found again " + where + ", by its shape");
   const Completion found =
       complete(problem_, state_.settings.follows_all, step.right, state_.numbers, result.counts);
-  const std::string where = "at " + place_text(options_, step.right.p);
   // On a branch point a mode vanishes, and the two halves of its pair are one to rounding.
-  const bool is_doubtful = found.doubtful && !state_.frame.on_branch_point(step.right);
-  if (is_doubtful && result.notes.size() < most_notes)
-    result.notes.push_back(where +
-                           " two tracks share an eigenvalue, or one has left the spectrum; see verify");
+  if (found.doubtful && !state_.frame.on_branch_point(step.right))
+    add_note(result, where + " two tracks share an eigenvalue, or one has left the spectrum; see verify");
   for (const OnePair& pair : found.pairs)
-    result.notes.push_back(where + " modes " + std::to_string(pair.kept + 1) + " and " +
-                           std::to_string(pair.ended + 1) + " are one complex pair, which goes on as mode " +
-                           std::to_string(pair.kept + 1));
-  for (int i = 0; i < found.added; ++i) result.notes.push_back("a mode that was missing was added " + where);
+    add_note(result, where + " modes " + std::to_string(pair.kept + 1) + " and " +
+                         std::to_string(pair.ended + 1) + " are one complex pair, which goes on as mode " +
+                         std::to_string(pair.kept + 1));
+  for (int i = 0; i < found.added; ++i) add_note(result, "a mode that was missing was added " + where);
   result.regroupings.repaired += found.added;
   const int begun = begin_here(problem_, std::move(needed.tracks), step.right, state_.numbers);
-  for (int i = 0; i < begun; ++i) {
-    if (result.notes.size() < most_notes)
-      result.notes.push_back("a mode that is wanted, or grows, was noticed " + where +
-                             " and could not be followed back; it begins there");
-  }
+  for (int i = 0; i < begun; ++i)
+    add_note(result, "a mode that is wanted, or grows, was noticed " + where +
+                         " and could not be followed back; it begins there");
   growing_unfollowed_ = needed.growing;
   number_modes(state_, step.right);
   for (const DenseBlock& block : stored.blocks) {
@@ -485,8 +487,7 @@ void TraceLoop::settle_events(LandedStep& landed) {
   log_branch_point(step.right);
   log(find_fold(search_, step.right, step.h));
   log(find_trimmed_crossing(search_, step));
-  if (auto remark = unexplained_growth(search_, step); remark && state_.result.notes.size() < most_notes)
-    state_.result.notes.push_back(std::move(*remark));
+  if (auto remark = unexplained_growth(search_, step)) add_note(state_.result, std::move(*remark));
 }
 
 /// If a point lies on a branch point, records it with a note on the paths that leave it.
@@ -578,10 +579,10 @@ bool TraceLoop::leaves_path_at(const PathNode& node) const {
 
 void TraceLoop::log(FoundEvents found) {
   const std::size_t before = state_.events.size();
-  if (state_.result.notes.size() >= most_notes) found.notes.clear();
+  for (std::string& note : found.notes) add_note(state_.result, std::move(note));
   if (!options_.events.veerings)  // narrow ones are met without a search
     std::erase_if(found.events, [](const Event& event) { return event.kind == EventKind::veering; });
-  record(log_, std::move(found), state_.events, state_.result.notes);
+  record(log_, std::move(found.events), state_.events);
   for (std::size_t i = before; i < state_.events.size(); ++i) {
     for (Event& event : with_copies(state_.copies, state_.events[i]))
       state_.result.events.push_back(std::move(event));
