@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/texts.hpp"
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/accuracy/shallow_extrema.hpp"
 #include "eigentrail/core/text.hpp"
@@ -18,6 +19,18 @@ bool is_reached(const FrequencyBand& band, const RecordedPath& path, const std::
                      [](const Event& event) { return event.kind == EventKind::band_edge; });
 }
 
+/// Notes where a range ends at no special point: one was missed, or none could be located.
+void note_unlocated(const TraceOptions& options, const std::vector<StableRange>& ranges,
+                    TraceResult& result) {
+  for (const StableRange& range : ranges) {
+    for (const RangeEnd& end : {range.from, range.to}) {
+      if (end.cause == "sign change")
+        result.notes.push_back("stability changes near " + options.parameter + " = " + short_text(end.p, 12) +
+                               ", where no special point was located; see verify");
+    }
+  }
+}
+
 }  // namespace
 
 Findings find_ranges_and_errors(const Model& model, const TraceOptions& options, RecordedPath path,
@@ -32,6 +45,7 @@ Findings find_ranges_and_errors(const Model& model, const TraceOptions& options,
                      " rad/s anywhere on the range; the nearest was followed";
   }
   found.ranges = stable_ranges(found.path, result.events, accuracy);
+  note_unlocated(options, found.ranges, result);
   found.errors = data_errors(model, options, found.path, result.events);
   if (!found.errors) return found;
   const int shallow = remove_shallow_extrema(found.path, result.events, *found.errors);

@@ -39,11 +39,10 @@ TEST_F(Log, AnEventSeenFromTwoStepsIsOne) {
 }
 
 TEST_F(Log, WhatRoundingPutsBesideTheRangeIsAtItsEnd) {
-  FoundEvents found;
-  found.events = {event_at(EventKind::crossing, -1.0 - 1e-12, {0.0, 2.0}, {0, 1}),
-                  event_at(EventKind::crossing, 1.0 + 1e-6, {0.0, 3.0}, {0, 1})};
-  std::vector<std::string> notes;
-  record({events, range, thresholds}, std::move(found), events, notes);
+  record({events, range, thresholds},
+         {event_at(EventKind::crossing, -1.0 - 1e-12, {0.0, 2.0}, {0, 1}),
+          event_at(EventKind::crossing, 1.0 + 1e-6, {0.0, 3.0}, {0, 1})},
+         events);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].p, -1.0);
 }
