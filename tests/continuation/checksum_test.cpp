@@ -28,7 +28,7 @@ struct Followed {
     node = family.point(0.0, alone(s));
   }
   bool holds() const { return checksum_holds(node, family.problem()); }
-  std::vector<StartingMode> missing() const { return missing_modes(node, spectrum, 1e-3); }
+  std::vector<StartingMode> missing() const { return missing_modes(node, spectrum, 1e-3, {}); }
 
   Planted family;
   Spectrum spectrum;

@@ -99,14 +99,18 @@ bool checksum_holds(const PathNode& node, const PathProblem& problem) {
                     problem.reference(Chart::reciprocal));
 }
 
-std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref) {
+std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref,
+                                        const RoundingThresholds& thresholds) {
   std::vector<Complex> tracked;
   std::vector<int> parts;
   for (const Track& track : node.tracks) {
+    const Vector rounding = rounding_of_roots(track, thresholds);
     for (Eigen::Index i = 0; i < track.size(); ++i) {
       const Complex s = chart_value(track.roots[i], track.pair.chart);
-      // In a real block, the members with Im s < 0 are the conjugates of others: the same modes.
-      if (std::isfinite(s.real()) && !(track.pair.is_real && s.imag() < 0.0)) {
+      // In a real block, the members with Im s < 0 are the conjugates of others: the same modes. Where they
+      // meet, rounding decides whether there are two real ones.
+      const bool is_other = track.pair.is_real && s.imag() < 0.0;
+      if (std::isfinite(s.real()) && !(is_other && std::abs(track.roots[i].imag()) > rounding[i])) {
         tracked.push_back(s);
         parts.push_back(track.pair.part);
       }
@@ -239,7 +243,8 @@ std::vector<StartingGroup> missing_groups(const PathProblem& problem, const Path
   const Spectrum spectrum = compute_spectrum(pencil);
   ++counts.spectra;
   if (spectrum.status != SpectrumStatus::complete) return {};
-  std::vector<StartingMode> missing = missing_modes(node, spectrum, problem.s_ref);
+  std::vector<StartingMode> missing =
+      missing_modes(node, spectrum, problem.s_ref, problem.thresholds.rounding);
   std::erase_if(missing, [&](const StartingMode& mode) { return !has_arrived(problem, node, mode.s); });
   return starting_groups(pencil, missing, static_cast<int>(missing.size()), problem.s_ref);
 }

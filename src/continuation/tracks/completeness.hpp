@@ -16,7 +16,8 @@ bool checksum_holds(const PathNode& node, const PathProblem& problem);
 
 /// The modes of a full spectrum that no track follows. Tracks and modes are assigned to each other one to
 /// one. `s_ref`: magnitude below which an eigenvalue counts as zero, 1/s.
-std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref);
+std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref,
+                                        const RoundingThresholds& thresholds);
 
 /// Whether two tracks at a point have an eigenpair in common: eigenvalues that differ by at most
 /// `merged_distance`, relative to their size or to `reference`, and a vector of one that has at least the

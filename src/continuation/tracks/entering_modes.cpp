@@ -83,7 +83,8 @@ EnteringModes entering_modes(const PathProblem& problem, const ModeChoice& choic
   ++counts.spectra;
   if (spectrum.status != SpectrumStatus::complete) return {};
   const auto is_wanted = [&](Complex s) { return choice.may_grow() && choice.wants(s); };
-  std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
+  std::vector<StartingMode> others =
+      missing_modes(node, spectrum, problem.s_ref, problem.thresholds.rounding);
   const auto needed_end = std::stable_partition(others.begin(), others.end(), [&](const StartingMode& mode) {
     return (is_wanted(mode.s) || (may_grow && mode.s.real() > 0.0)) && has_arrived(problem, node, mode.s);
   });

@@ -109,7 +109,8 @@ std::vector<StartingMode> neighbours_of(const PathProblem& problem, const PathNo
   const Complex centre = chart_value(most_restless(track), track.pair.chart);
   const Spectrum spectrum = spectrum_beside(node.pencil.of(track.pair.part), track, centre);
   if (spectrum.status != SpectrumStatus::complete) return {};
-  std::vector<StartingMode> others = missing_modes(node, spectrum, problem.s_ref);
+  std::vector<StartingMode> others =
+      missing_modes(node, spectrum, problem.s_ref, problem.thresholds.rounding);
   const auto distance = [&](Complex s) {
     return std::min(std::abs(centre - s), std::abs(centre - std::conj(s)));
   };
