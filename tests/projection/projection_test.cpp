@@ -340,8 +340,9 @@ TEST(Projection, ACollisionOnTheRealAxisTakesFewFactorizations) {
     const TraceSetup setup = large_setup(chain, 0.0, 1.5, 4, tolerance);
     const Traced traced = run(setup, 10);
     EXPECT_EQ(traced.result.status, TraceStatus::completed);
-    EXPECT_LE(traced.model->projection()->factorizations, 12) << tolerance;
-    // At 1e-9 rounding of the stiffness, whose entries are a million times its lowest eigenvalue, is told.
+    // At 1e-9 rounding of the stiffness, whose entries are a million times its lowest eigenvalue, is told;
+    // how soon it is seen that more do not help depends on the kernel of BLAS: 12 or 15.
+    EXPECT_LE(traced.model->projection()->factorizations, tolerance > 1e-9 ? 12 : 16) << tolerance;
     EXPECT_EQ(traced.model->projection()->notes.empty(), tolerance > 1e-9);
     EXPECT_LT(error(setup, traced), std::max(tolerance, 1e-8));
     int collisions = 0, divergences = 0;
