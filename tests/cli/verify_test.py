@@ -60,6 +60,20 @@ class Verify(ProgramTest):
     def test_a_pair_that_becomes_two_real_modes_passes(self):
         self.assert_passes(BIRTH)
 
+    def test_collisions_of_growing_and_decaying_modes_at_neighbouring_points_pass(self):
+        # At each of them two modes are stored whose pair is one behind it.
+        self.write("scene.toml", """[trace]
+parameter = "p"
+from = 0
+to = 0.3
+[matrix_family]
+M = [[[1, 0], [0, 1]]]
+C = [[[0.02, 0], [0, 0.022]]]
+K = [[[-1, 0], [0, -1.2]], [[0, 1], [-1, 0]]]
+""")
+        self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
+        self.assertIn("2 special points against the spectrum there", self.run_well("verify", "loci.h5"))
+
     def test_a_crossing_passes(self):
         self.assert_passes(CROSSING)
 

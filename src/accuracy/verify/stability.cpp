@@ -31,7 +31,8 @@ Census census_at(const CheckedFile& file, const PathPosition& place, double leve
   for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
     const double growth = s[mode].real();
     if (!std::isfinite(growth) || permanence[static_cast<std::size_t>(mode)] == Permanence::zero) continue;
-    const int members = s[mode].imag() == 0.0 ? 1 : 2;
+    // Where two meet on the real axis each of them is stored, a little beside it.
+    const int members = std::abs(s[mode].imag()) <= errors[mode] ? 1 : 2;
     census.all += members;
     census.growing += growth > 0.0 ? members : 0;
     census.real += s[mode].imag() == 0.0 ? 1 : 0;
