@@ -188,7 +188,7 @@ void Scanner::report(const TraceResult& result) {
         return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
       });
     }
-    // Neither has modes whose growth changes its sign: where nothing is damped, they oscillate on one side.
+    // Where nothing is damped, modes oscillate on one side of these: no growth changes its sign.
     const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::branch_point;
     if (options_.damping_ratio || event.direction == 0 || !may_be) continue;
     const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];

@@ -7,7 +7,7 @@ import unittest
 
 from command_test_case import CommandTest
 from loci_comparison import differences
-from program import (BLADE, EXIT_DONE, EXIT_NUMBERS_FAILED, FAMILY, PROGRAM, PUSHED_PENDULUM, TIME_LIMIT, ProgramTest,
+from program import (BLADE, EXIT_DONE, EXIT_NUMBERS_FAILED, FAMILY, PROGRAM, PUSHED_PENDULUM, SCENES, TIME_LIMIT, ProgramTest,
                      each_case, edited)
 
 SWEEP = ("sweep", "scene.toml", "--vary", "drag=1,2,5", "--vary", "length=4:0.5:5")
@@ -43,36 +43,6 @@ to = 5
 [matrix_family]
 M = [[[3, 1], [1, 1]]]
 K = [[["2 * k - p", "p - k"], ["-k", "k"]]]
-"""
-
-PENDULUM = """\
-[parameters]
-length = 0.5
-omega = 0.0
-
-[trace]
-parameter = "omega"
-from = 0
-to = 6
-
-[frame]
-angular_velocity = [0, 0, "omega"]
-
-[gravity]
-acceleration = [0, 0, -9.81]
-
-[[body]]
-name = "ball"
-mass = 1.0
-inertia = [0, 0, 0]
-position = [0, 0, "-length"]
-markers = { hinge = [0, 0, "length"] }
-
-[[revolute]]
-name = "hinge"
-from = [0, 0, 0]
-to = "ball.hinge"
-axis = [0, 1, 0]
 """
 
 
@@ -132,7 +102,8 @@ class Sweep(CommandTest):
             self.assertEqual(row["divergence"], "")
             self.assertAlmostEqual(float(row["flutter"]), float(row["k"]) * (3.5 - 2 ** 0.5), 9)
         # A pendulum on a hinge that turns about the vertical leaves it at sqrt(g / length).
-        self.write("scene.toml", PENDULUM)
+        pendulum = (SCENES / "whirling_pendulum.toml").read_text(encoding="utf-8")
+        self.write("scene.toml", edited(pendulum, "branch = 2", "branch = 1"))
         self.run_well("sweep", "scene.toml", "--vary", "length=0.5,0.6", "-o", "pendulum", "--quiet")
         for row in self.index("pendulum/index.csv"):
             self.assertAlmostEqual(float(row["divergence"]), ((9.81 / float(row["length"]))) ** 0.5, 9)

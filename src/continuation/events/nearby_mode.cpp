@@ -65,8 +65,7 @@ int partner_of_root(const Track& track, int root) {
 }
 
 Complex upper_member(Complex mu, Chart chart) {
-  const bool lower = chart == Chart::finite ? mu.imag() < 0.0 : mu.imag() > 0.0;
-  return lower ? std::conj(mu) : mu;
+  return is_lower(mu, chart) ? std::conj(mu) : mu;
 }
 
 std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode& left, std::size_t track,

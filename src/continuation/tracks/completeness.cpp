@@ -109,7 +109,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
       const Complex s = chart_value(track.roots[i], track.pair.chart);
       // In a real block, the members with Im s < 0 are the conjugates of others: the same modes. Where they
       // meet, rounding decides whether there are two real ones.
-      const bool is_other = track.pair.is_real && s.imag() < 0.0;
+      const bool is_other = track.pair.is_real && is_lower(track.roots[i], track.pair.chart);
       if (std::isfinite(s.real()) && !(is_other && std::abs(track.roots[i].imag()) > rounding[i])) {
         tracked.push_back(s);
         parts.push_back(track.pair.part);
@@ -203,9 +203,8 @@ void end_conjugates_within(Track& track, double reference, double merged_distanc
   for (Eigen::Index i = 0; i < track.size(); ++i) {
     int& below = track.modes[static_cast<std::size_t>(i)];
     const Complex root = track.roots[i];
-    const bool is_lower = chart_value(root, track.pair.chart).imag() < 0.0;
-    const double apart = 2.0 * std::abs(root.imag());
-    if (below < 0 || !is_lower || apart <= merged_distance * std::max(std::abs(root), reference)) continue;
+    if (below < 0 || !is_lower(root, track.pair.chart)) continue;
+    if (2.0 * std::abs(root.imag()) <= merged_distance * std::max(std::abs(root), reference)) continue;
     const Eigen::Index other = conjugate_of(track.roots, i);
     int& above = track.modes[static_cast<std::size_t>(other)];
     if (above >= 0) pairs.push_back({std::min(above, below), std::max(above, below)});

@@ -128,8 +128,8 @@ int number_growing_guards(const PathProblem& problem, const PathNode& right, Pat
     for (Eigen::Index i = 0; i < end.size(); ++i) {
       int& mode = modes[static_cast<std::size_t>(i)];
       // Of a pair in a real block the member with Im s > 0 has the number.
-      const bool is_lower = end.pair.is_real && chart_value(end.roots[i], end.pair.chart).imag() < 0.0;
-      if (mode != Track::guard || is_lower || !(end.roots[i].real() > rounding[i])) continue;
+      const bool is_conjugate = end.pair.is_real && is_lower(end.roots[i], end.pair.chart);
+      if (mode != Track::guard || is_conjugate || !(end.roots[i].real() > rounding[i])) continue;
       mode = numbers.count++;
       ++found;
       const Eigen::Index partner = end.pair.is_real ? conjugate_of(end.roots, i) : i;

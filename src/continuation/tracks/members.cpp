@@ -70,6 +70,10 @@ Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member) {
   return nearest_root(roots, std::conj(roots[member]));
 }
 
+bool is_lower(Complex root, Chart chart) {
+  return chart == Chart::finite ? root.imag() < 0.0 : root.imag() > 0.0;
+}
+
 ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {
   if (track.pair.chart == chart) return series;
   return series[0] == 0.0 ? ComplexVector() : reciprocal_series(series);

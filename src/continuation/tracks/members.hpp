@@ -35,6 +35,9 @@ Eigen::Index nearest_root(const ComplexVector& roots, Complex s);
 /// Index of the conjugate of an eigenvalue of a real block: its own, of a real one.
 Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member);
 
+/// Whether Im s < 0, of an eigenvalue in its chart. The mode of a complex pair is the other member.
+bool is_lower(Complex root, Chart chart);
+
 /// A series that a track has in its chart, in another chart; empty where it is infinite there.
 ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart);
 

@@ -53,7 +53,7 @@ void settle_pairs(Track& track, ComplexVector& roots, ModeNumbers& numbers) {
     }
     a = upper;
     b = followed ? Track::no_mode : Track::guard;
-    if (chart_value(roots[i], track.pair.chart).imag() < 0.0) std::swap(a, b);
+    if (is_lower(roots[i], track.pair.chart)) std::swap(a, b);
   }
 }
 
