@@ -46,6 +46,7 @@ void add_suggest(CLI::App& program, int& exit_code);
 void add_import(CLI::App& program, int& exit_code);
 void add_trace(CLI::App& program, int& exit_code);
 void add_spectrum(CLI::App& program, int& exit_code);
+void add_linearize(CLI::App& program, int& exit_code);
 void add_eval(CLI::App& program, int& exit_code);
 void add_events(CLI::App& program, int& exit_code);
 void add_boundary(CLI::App& program, int& exit_code);

@@ -112,9 +112,10 @@ int run(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 done; 1 the numbers failed (what was computed is kept); 2 bad input or usage.");
   int exit_code = done;
-  for (const auto& add : {add_new, add_import, add_suggest, add_explain, add_trace, add_spectrum, add_eval,
-                          add_events, add_boundary, add_map, add_sweep, add_merge, add_info, add_verify,
-                          add_accuracy, add_report, add_plot, add_export, add_reference})
+  for (const auto& add :
+       {add_new,    add_import,   add_suggest,  add_explain, add_trace,  add_spectrum, add_linearize,
+        add_eval,   add_events,   add_boundary, add_map,     add_sweep,  add_merge,    add_info,
+        add_verify, add_accuracy, add_report,   add_plot,    add_export, add_reference})
     add(program, exit_code);
   reject_empty_numbers(program);
   reject_unknown_command(program, argc, argv);

@@ -22,6 +22,10 @@ Matrix whole_Q(const Eigen::ColPivHouseholderQR<Matrix>& qr) {
   return qr.householderQ();
 }
 
+ComplexMatrix whole_Q(const Eigen::ColPivHouseholderQR<ComplexMatrix>& qr) {
+  return qr.householderQ();
+}
+
 Matrix orthonormal(const Matrix& A) {
   return columns_of_Q(Eigen::HouseholderQR<Matrix>(A), A.cols());
 }

@@ -16,6 +16,7 @@ ComplexMatrix columns_of_Q(const Eigen::HouseholderQR<ComplexMatrix>& qr, Eigen:
 /// Q of A = Q R, of A P = Q R: n x n.
 Matrix whole_Q(const Eigen::HouseholderQR<Matrix>& qr);
 Matrix whole_Q(const Eigen::ColPivHouseholderQR<Matrix>& qr);
+ComplexMatrix whole_Q(const Eigen::ColPivHouseholderQR<ComplexMatrix>& qr);
 
 /// An orthonormal basis of the columns of A if these are independent: the columns of Q that are as many.
 Matrix orthonormal(const Matrix& A);

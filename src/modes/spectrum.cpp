@@ -14,6 +14,7 @@
 #include "core/positive_or_one.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "eigentrail/reduction/complex_blocks.hpp"
+#include "modes/companion_form.hpp"
 
 namespace eigentrail {
 namespace {
@@ -97,30 +98,6 @@ ComplexVector right_vector(const ComplexVector& both, Eigen::Index n) {
   return (upper ? both.head(n) : both.tail(n)).normalized();
 }
 
-/// Companion form: a y = mu b y with y = [z; mu z_m], z_m the coordinates with mass. Those without have no
-/// velocity as a state: s C z stands on the right side for them.
-template <class Values>
-void linearize(const Values& M, const Values& C, const Values& K, Values& a, Values& b) {
-  const Eigen::Index n = M.rows();
-  std::vector<Eigen::Index> with_mass;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    if (!M.col(j).isZero(0.0)) with_mass.push_back(j);
-  }
-  const auto m = static_cast<Eigen::Index>(with_mass.size());
-  a = Values::Zero(m + n, n + m);
-  b = a;
-  a.topRightCorner(m, m).setIdentity();
-  a.bottomLeftCorner(n, n) = -K;
-  b.bottomLeftCorner(n, n) = C;
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Eigen::Index j = with_mass[static_cast<std::size_t>(i)];
-    b(i, j) = 1.0;
-    b.col(j).tail(n).setZero();
-    a.col(n + i).tail(n) = -C.col(j);
-    b.col(n + i).tail(n) = M.col(j);
-  }
-}
-
 /// All eigenvalues mu = alpha / beta of a pencil whose entries are such numbers; conjugates of a real pencil
 /// are neighbours, that with Im mu > 0 first.
 template <class Scalar>
@@ -197,24 +174,23 @@ std::optional<Values> massless_last(const Values& M, Eigen::Index& rank) {
   rank = qr.rank();
   const Eigen::Index with_mass = (M.cwiseAbs().colwise().maxCoeff().array() > 0.0).count();
   if (rank >= with_mass) return std::nullopt;
-  return Values(equal.columns.asDiagonal() * Values(qr.householderQ()));
+  return Values(equal.columns.asDiagonal() * whole_Q(qr));
 }
 
 template <class Values>
 Eigenvalues<typename Values::Scalar> by_qz(const Values& M, const Values& C, const Values& K,
                                            bool with_vectors) {
-  Values a, b;
   Eigen::Index rank = 0;
   const std::optional<Values> T = massless_last(M, rank);
   if (!T) {
-    linearize(M, C, K, a, b);
-    return qz(a, b, with_vectors);
+    CompanionForm<Values> form(M, C, K);
+    return qz(form.a, form.b, with_vectors);
   }
   const Eigen::Index n = M.rows();
   Values MT = M * *T;
   MT.rightCols(n - rank).setZero();
-  linearize<Values>(MT, C * *T, K * *T, a, b);
-  auto all = qz(a, b, with_vectors);
+  CompanionForm<Values> form(MT, C * *T, K * *T);
+  auto all = qz(form.a, form.b, with_vectors);
   if (all && with_vectors)
     all->vectors = (T->template cast<Complex>() * all->vectors.topRows(n)).eval();  // without velocities
   return all;
@@ -446,15 +422,15 @@ InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Com
     scaling.gamma = least_scale;
     scaling.delta = 2.0 / (M.norm() * least_scale * least_scale + C.norm() * least_scale);
   }
-  Values a, b;
-  linearize(Values(scaling.delta * scaling.gamma * scaling.gamma * M),
-            Values(scaling.delta * scaling.gamma * C), Values(scaling.delta * K), a, b);
+  const CompanionForm<Values> form(scaling.delta * scaling.gamma * scaling.gamma * M,
+                                   scaling.delta * scaling.gamma * C, scaling.delta * K);
   const Complex mu = centre / scaling.gamma;
   const double size = std::max(std::abs(mu), 1e-3);
   const Complex shift = is_real ? Complex(mu.real() + offset * size) : mu + offset * size * Complex(0.6, 0.8);
-  const ComplexMatrix complex_a = a.template cast<Complex>(), complex_b = b.template cast<Complex>();
+  const ComplexMatrix complex_a = form.a.template cast<Complex>(),
+                      complex_b = form.b.template cast<Complex>();
   const Eigen::PartialPivLU<ComplexMatrix> lu(complex_a - shift * complex_b);
-  ComplexMatrix X(a.rows(), k);
+  ComplexMatrix X(form.a.rows(), k);
   for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = std::sin(1.0 + 1.7 * static_cast<double>(i));
   for (int i = 0; i < iterations; ++i) {
     X = orthonormal(ComplexMatrix(lu.solve(ComplexMatrix(complex_b * X))));
@@ -462,8 +438,11 @@ InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Com
   InvariantPair pair;
   pair.is_real = is_real;
   pair.Z = X.topRows(n);
+  // (b X) Lambda = a X in the least-squares sense.
+  const ComplexMatrix right = complex_b * X, basis = orthonormal(right);
+  const Eigen::PartialPivLU<ComplexMatrix> coordinates(ComplexMatrix(basis.adjoint() * right));
   pair.Lambda =
-      scaling.gamma * ComplexMatrix(complex_b * X).householderQr().solve(ComplexMatrix(complex_a * X));
+      scaling.gamma * coordinates.solve(ComplexMatrix(basis.adjoint() * ComplexMatrix(complex_a * X)));
   if (is_real) {
     // A real pencil and a real shift give a real subspace; the QR basis of it is real.
     pair.Z.imag().setZero();

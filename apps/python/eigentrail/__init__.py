@@ -19,14 +19,15 @@ from .families import Family, Samples, StateSpace
 from .files import open
 from .gradients import gradient, least_damping
 from .imports import Imported, from_files, from_openfast
+from .linear import LinearModel
 from .ross import from_ross
-from .runs import accuracy, boundary, events, explain, map, spectrum, trace
+from .runs import accuracy, boundary, events, explain, linearize, map, spectrum, trace
 from .sweep import sweep
 from .version import __version__
 
-__all__ = ["Eigentrail", "Error", "Family", "Imported", "NotProjected", "NotResolved", "Samples", "SceneError", "StateSpace",
+__all__ = ["Eigentrail", "Error", "Family", "Imported", "LinearModel", "NotProjected", "NotResolved", "Samples", "SceneError", "StateSpace",
            "TraceError", "accuracy", "boundary", "events", "explain", "from_files", "from_openfast", "from_ross", "gradient",
-           "least_damping", "map", "open", "spectrum", "sweep", "trace", "__version__"]
+           "least_damping", "linearize", "map", "open", "spectrum", "sweep", "trace", "__version__"]
 
 if TYPE_CHECKING or "xarray" in sys.modules:  # somebody may have Datasets
     from .accessor import Eigentrail

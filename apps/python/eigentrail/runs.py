@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, Optional, Union
@@ -14,6 +16,7 @@ from .engine import engine
 from .errors import SceneError, TraceError
 from .given import Attached, Given, Source, give, number, option_text, within
 from .later import pandas, xarray
+from .linear import LinearModel
 from .progress import Progress, bar
 
 Options = list[tuple[str, str]]
@@ -171,16 +174,31 @@ def spectrum(scene: Source, at: Any = None, *, modes: Any = None, settings: Opti
     1  0.25     2            1.3894
     """
     given = give(spectrum, scene, {**(settings or {}), **parameters})
-    chosen = _trace_options(given, options, modes=modes, single=True)
-    one = [given.values[name] for name in [given.scene.traced] if name in given.values]
-    values = one if at is None else [number("at", value) for value in np.atleast_1d(at)]
-    found = engine().spectrum(given.scene, chosen, values)
-    faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
-    if faults and not found["rows"]:
-        raise TraceError(f"{given.scene.path}: {'; '.join(faults)}")
-    _tell(given.warnings + faults)
-    table = pandas.DataFrame(found["rows"])
+    found = engine().spectrum(given.scene, _trace_options(given, options, modes=modes, single=True), _values(given, at))
+    table = pandas.DataFrame(_found(given, found, "rows"))
     return table.rename(columns={"parameter": given.scene.traced or next(iter(given.ranges), "parameter")})
+
+
+@checked
+def linearize(scene: Source, at: Any = None, *, inputs: Sequence[str] = (), settings: Optional[Mapping[str, Any]] = None,
+              options: Optional[Mapping[str, Any]] = None, **parameters: Any) -> LinearModel:
+    """Mass, damping and stiffness at one or several values of the traced parameter, with the tangent basis, the constraints and
+    the state-space form: arrays by names, see `LinearModel`.
+
+        model = linearize("rotor.toml", at=120, inputs=["thrust"])
+        poles = scipy.linalg.eigvals(model.state_A, model.state_E)
+        system = control.ss(*model.state_space(["tip.x", "rate of tip.x"]))
+
+    `inputs`: parameters of the scene that forces contain; their changes are inputs. `at` as for `spectrum`.
+
+    >>> et.linearize(scene, at=0.5).K
+    array([[ 1. ,  0.5],
+           [-0.5,  2. ]])
+    """
+    given = give(linearize, scene, {**(settings or {}), **parameters})
+    found = engine().linearize(given.scene, _trace_options(given, options, single=True), _values(given, at), list(inputs))
+    return LinearModel({name: array[0] if per_value and np.ndim(at) == 0 else array
+                        for name, (array, per_value) in _found(given, found, "arrays").items()})
 
 
 @checked
@@ -238,6 +256,22 @@ def _trace_options(given: Given, others: Optional[Mapping[str, Any]] = None, fir
     return named + ends + chosen
 
 
+def _values(given: Given, at: Any) -> list[float]:
+    """Of the traced parameter: those of `at`, by default the one that was given, if any."""
+    if at is None:
+        return [given.values[name] for name in [given.scene.traced] if name in given.values]
+    return [number("at", value) for value in np.atleast_1d(at)]
+
+
+def _found(given: Given, found: Mapping[str, Any], key: str) -> Any:
+    """What was computed at single values; warns of the values at which nothing was."""
+    faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
+    if faults and not found[key]:
+        raise TraceError(f"{given.scene.path}: {'; '.join(faults)}")
+    _tell(given.warnings + faults)
+    return found[key]
+
+
 def _two_ranges(given: Given) -> tuple[Optional[str], str]:
     """Names of the traced parameter, None for that of [trace], and of the second one."""
     names, traced = list(given.ranges), given.scene.traced
@@ -271,5 +305,9 @@ def _result(given: Given, progress: Progress, compute: Callable[[Any], Any]) -> 
 
 
 def _tell(remarks: Iterable[str]) -> None:
+    """Warns where the user has called the package."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(os.path.dirname(__file__)):
+        frame, level = frame.f_back, level + 1
     for remark in remarks:
-        warnings.warn(remark, stacklevel=3)
+        warnings.warn(remark, stacklevel=level)

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "eigentrail/accuracy/data_errors.hpp"
+#include "eigentrail/continuation/linear_model.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/continuation/operating_range.hpp"
 #include "eigentrail/continuation/sensitivities.hpp"
@@ -60,6 +61,42 @@ py::dict spectrum(const Scene& scene, const Options& options, std::vector<double
   return py::dict("rows"_a = rows, "faults"_a = faults);
 }
 
+/// An array of all samples, or of texts.
+py::object as_array(const NamedSamples& array) {
+  if (!array.texts.empty()) return py::cast(array.texts);
+  const Matrix& first = array.samples.front();
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(array.samples.size()), first.rows(), first.cols()};
+  shape.resize(1 + static_cast<std::size_t>(array.rank));
+  Doubles result(shape);
+  double* entry = result.mutable_data();
+  for (const Matrix& sample : array.samples) {
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(entry, first.rows(),
+                                                                                       first.cols()) = sample;
+    entry += first.size();
+  }
+  return result;
+}
+
+/// Per name an array, and whether its first axis counts values.
+py::dict linearize(const Scene& scene, const Options& options, std::vector<double> values,
+                   const std::vector<std::string>& inputs) {
+  std::vector<LinearModel> models, failed;
+  std::vector<NamedSamples> found;
+  py::list faults;
+  unlocked([&] {
+    const TraceSetup setup = prepare_trace(scene, options, Purpose::operating_point);
+    if (values.empty()) values.push_back(setup.options.from);
+    for (LinearModel& model : linear_models(setup, values, inputs))
+      (model.fault.empty() ? models : failed).push_back(std::move(model));
+    if (!models.empty()) found = arrays_of(setup, models, inputs);
+  });
+  for (const LinearModel& model : failed) faults.append(py::make_tuple(model.p, model.fault));
+  py::dict arrays;
+  for (const NamedSamples& array : found)
+    arrays[py::str(array.name)] = py::make_tuple(as_array(array), array.texts.empty());
+  return py::dict("arrays"_a = arrays, "faults"_a = faults);
+}
+
 /// Derivatives of the eigenvalues with respect to all parameters that are not derived, at one value of the
 /// traced parameter.
 py::dict sensitivities(const Scene& scene, const Options& options, double value, const Vector& guess) {
@@ -103,6 +140,7 @@ bool is_too_close(const std::vector<std::pair<double, double>>& ranges, const st
 
 void add_points(py::module_& module) {
   module.def("spectrum", &spectrum);
+  module.def("linearize", &linearize);
   module.def("explain", &explanation);
   module.def("sensitivities", &sensitivities);
   module.def("is_too_close", &is_too_close);

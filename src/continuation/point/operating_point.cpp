@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "continuation/point/refined_spectrum.hpp"
-#include "eigentrail/continuation/path_point.hpp"
+#include "continuation/point/separate_points.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -156,7 +156,8 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   return result;
 }
 
-/// Throws InputError for a value outside the samples of the model, if it has such.
+}  // namespace
+
 void check_within_samples(const TraceSetup& setup, const std::vector<double>& values) {
   const SampleErrors* errors = setup.model->sample_errors();
   if (errors == nullptr || errors->parameter() != setup.traced()) return;
@@ -168,8 +169,6 @@ void check_within_samples(const TraceSetup& setup, const std::vector<double>& va
     if (!fault.empty()) throw InputError(setup.scene.path + ": " + fault);
   }
 }
-
-}  // namespace
 
 Complex without_rounding(const OperatingMode& mode) {
   if (!std::isfinite(mode.rounding)) return mode.s;
@@ -194,23 +193,11 @@ std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std:
     problem.rests = true;
     problem.parts = std::move(scene.parts);
   }
-  RunCounts counts;
   std::vector<OperatingPoint> points;
-  EquilibriumGuess last;
-  for (const double p : values) {
-    // That of the value before only where none is found without: which one is shown depends on no other
-    // value.
-    const EquilibriumGuess own{setup.model->initial_guess(parameters_at(problem, p)), Vector(), false};
-    PathPoint point = reduce_at(problem, p, own, Matrix(), counts);
-    if (point.status != PointStatus::computed && last.x.size() > 0)
-      point = reduce_at(problem, p, last, Matrix(), counts);
-    if (point.status != PointStatus::computed) {
-      points.push_back({p, point.message});
-      continue;
-    }
-    points.push_back(spectrum_at(setup, point, p));
-    last = {point.equilibrium.x, point.equilibrium.lambda, true};
-  }
+  for_each_point(problem, values, Matrix(), [&](const PathPoint& point) {
+    points.push_back(point.status == PointStatus::computed ? spectrum_at(setup, point, point.p)
+                                                           : OperatingPoint{point.p, point.message});
+  });
   return points;
 }
 
