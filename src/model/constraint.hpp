@@ -4,8 +4,8 @@
 //     c = (a1 - a2) . (b1 - b2) - offset,
 //
 // or one component of such a vector, c = (a1 - a2)_i - offset. Lengths, right angles and coinciding places
-// have this form. With points and directors as coordinates, all joints consist of such rows. A is then linear
-// in x and (A^T lambda)_/x is constant in x; both are formed without differentiation.
+// have this form. With points and directors as coordinates, all joints consist of such rows: A is linear in x
+// there. Motions of joints that are coupled, as by gears, have rows of their own.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/element.hpp"
+#include "model/elements/torsion.hpp"
 
 namespace eigentrail {
 
@@ -25,11 +26,33 @@ struct Difference {
   bool moves() const { return first.moves() || (second && second->moves()); }
 };
 
+/// A ratio times the motion of a joint: its angle or, if it slides, axis . (to - from).
+struct CoupledMotion {
+  Quantity ratio;
+  HingeAngle joint;
+  bool slides = false;
+};
+
 struct ConstraintRow {
   Difference a;
   std::optional<Difference> b;  ///< if absent, the row is component `axis` of a
   int axis = 0;
   Quantity offset;
+  std::vector<CoupledMotion> coupled = {};  ///< if there are such, the row is their sum - offset
+
+  /// Calls visit(place) for all places.
+  template <class Self, class Visit>
+  static void for_each_place(Self& self, const Visit& visit) {
+    for (auto& motion : self.coupled) {
+      for (auto* place : {&motion.joint.axis, &motion.joint.from, &motion.joint.to}) visit(*place);
+    }
+    if (!self.coupled.empty()) return;
+    for (auto* side : {&self.a, self.b ? &*self.b : nullptr}) {
+      if (side == nullptr) continue;
+      visit(side->first);
+      if (side->second) visit(*side->second);
+    }
+  }
 };
 
 /// A constraint of the scene: its rows, with one multiplier each.

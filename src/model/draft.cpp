@@ -110,6 +110,18 @@ Place Draft::direction_on(const Carrier& carrier, const ExpressionVector& along)
   return carrier.body < 0 ? fixed_place(along) : place_of(on_directors(carrier.body, along));
 }
 
+ExpressionVector Draft::at_guess(const Place& place) const {
+  ExpressionVector sum{0.0, 0.0, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!place.moves()) sum[i] = place.fixed[i].expression;
+    for (const Term& term : place.terms) {
+      const Expression& component = guess[3 * static_cast<std::size_t>(term.triple) + i];
+      sum[i] = sum[i] + (term.weight.slot < 0 ? component : term.weight.expression * component);
+    }
+  }
+  return sum;
+}
+
 std::array<Place, 3> Draft::directors(int body) const {
   const int origin = bodies[static_cast<std::size_t>(body)].triple;
   return {point_place(origin + 1), point_place(origin + 2), point_place(origin + 3)};

@@ -45,6 +45,11 @@ struct Carrier {
 /// Sum of weights times triples of coordinates: a moving vector before it is a Place.
 using Combination = std::vector<std::pair<int, Expression>>;
 
+/// What a joint can do: its angles, and the displacement along its axis as the places axis, from and to.
+struct JointMotions {
+  std::vector<HingeAngle> angles, slides;
+};
+
 struct Draft {
   Draft(const Scene& of, const ModelRequest& asked);
 
@@ -70,9 +75,9 @@ struct Draft {
   std::vector<std::pair<std::string, std::string>> notes;  ///< ModelDescription::data
   std::vector<std::string> constraint_names;
   std::set<std::string> constraint_labels;
-  std::map<std::string, std::vector<HingeAngle>> joint_angles;  ///< by label of the joint
-  std::map<std::string, Quantity> strengths;                    ///< by effect; empty unless requested
-  std::vector<std::string> strength_names;                      ///< in the order of their parameters
+  std::map<std::string, JointMotions> joints;  ///< by label
+  std::map<std::string, Quantity> strengths;   ///< by effect; empty unless requested
+  std::vector<std::string> strength_names;     ///< in the order of their parameters
 
   TableReader reader(const Table& table, const std::string& label);
   /// Calls read(table, i) for every table [[kind]] of the scene, i its index from 0.
@@ -110,6 +115,8 @@ struct Draft {
   /// The direction with components `along` in the axes of the carrier.
   Place direction_on(const Carrier& carrier, const ExpressionVector& along);
   std::array<Place, 3> directors(int body) const;
+  /// Components of a place or a direction in the frame, at the starting guess.
+  ExpressionVector at_guess(const Place& place) const;
   /// Whether what has this triple does not turn with the frame, because it is the hub, the support or the
   /// inflow of a rotor.
   bool stands(int triple) const {
@@ -216,7 +223,7 @@ struct ConstraintKind {
   std::string_view name;
   std::string_view description;
   std::vector<FieldHelp> fields;
-  std::vector<ConstraintRow> (*read)(Draft& draft, TableReader& table, std::vector<HingeAngle>& angles);
+  std::vector<ConstraintRow> (*read)(Draft& draft, TableReader& table, JointMotions& motions);
 };
 const std::vector<ConstraintKind>& constraint_kinds();
 

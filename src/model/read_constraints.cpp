@@ -9,7 +9,6 @@ namespace eigentrail {
 namespace {
 
 using Rows = std::vector<ConstraintRow>;
-using Angles = std::vector<HingeAngle>;
 
 /// A direction that is fixed on both sides of a joint and the same at the starting guess.
 struct SharedDirection {
@@ -76,6 +75,8 @@ class JointReader {
     return {on_from(axes.axis.from), on_from(axes.first.from), on_to(axes.first.to)};
   }
 
+  HingeAngle slide_along(const JointAxes& axes) { return {on_from(axes.axis.from), from, to}; }
+
   /// The places coincide.
   void coincide() {
     for (int i = 0; i < 3; ++i) rows.push_back({{to, from}, {}, i, draft_.quantity(0.0)});
@@ -109,21 +110,21 @@ class JointReader {
   TableReader& table_;
 };
 
-Rows read_rod(Draft& draft, TableReader& table, Angles&) {
+Rows read_rod(Draft& draft, TableReader& table, JointMotions&) {
   const JointReader joint(draft, table, false);
   const Expression length = draft.read_number(table, "length", "m", Range::positive);
   const Difference d{joint.to, joint.from};
   return {{d, d, 0, draft.quantity(length * length)}};
 }
 
-Rows read_plane(Draft& draft, TableReader& table, Angles&) {
+Rows read_plane(Draft& draft, TableReader& table, JointMotions&) {
   const Place point = draft.read_moving_place(table, "point");
   const ExpressionVector normal = draft.read_vector(table, "normal", any_unit, Range::positive);
   const Expression offset = draft.read_number(table, "offset", "m", Range::any, 0.0);
   return {{{draft.fixed_place(normal), {}}, Difference{point, {}}, 0, draft.quantity(offset)}};
 }
 
-Rows read_fixed(Draft& draft, TableReader& table, Angles&) {
+Rows read_fixed(Draft& draft, TableReader& table, JointMotions&) {
   const Place point = draft.read_moving_place(table, "point");
   const std::string name = table.text("coordinate");
   const std::size_t axis = std::string_view("xyz").find(name);
@@ -134,23 +135,23 @@ Rows read_fixed(Draft& draft, TableReader& table, Angles&) {
   return {{{point, {}}, {}, static_cast<int>(axis), draft.quantity(value)}};
 }
 
-Rows read_ball(Draft& draft, TableReader& table, Angles&) {
+Rows read_ball(Draft& draft, TableReader& table, JointMotions&) {
   JointReader joint(draft, table, false);
   joint.coincide();
   return joint.rows;
 }
 
-Rows read_revolute(Draft& draft, TableReader& table, Angles& angles) {
+Rows read_revolute(Draft& draft, TableReader& table, JointMotions& motions) {
   JointReader joint(draft, table, true);
   const JointAxes axes = joint.read_axes("axis");
   joint.coincide();
   joint.parallel(axes);
   if (table.has("angle")) joint.turned_by(axes, draft.read_number(table, "angle", "rad", Range::any));
-  angles.push_back(joint.angle_about(axes));
+  motions.angles.push_back(joint.angle_about(axes));
   return joint.rows;
 }
 
-Rows read_universal(Draft& draft, TableReader& table, Angles& angles) {
+Rows read_universal(Draft& draft, TableReader& table, JointMotions& motions) {
   JointReader joint(draft, table, true);
   const JointAxes axes = joint.read_axes("axis");
   const JointAxes cross = joint.read_axes("cross_axis");
@@ -166,50 +167,113 @@ Rows read_universal(Draft& draft, TableReader& table, Angles& angles) {
   // For each of the two axes, the other axis shows the angle, because it stays normal to the first.
   const Place first = joint.on_from(axes.axis.from);
   const Place second = joint.on_to(cross.axis.to);
-  angles.push_back({first, joint.on_from(cross.axis.from), second});
-  angles.push_back({second, first, joint.on_to(axes.axis.to)});
+  motions.angles.push_back({first, joint.on_from(cross.axis.from), second});
+  motions.angles.push_back({second, first, joint.on_to(axes.axis.to)});
   return joint.rows;
 }
 
-Rows read_cylindrical(Draft& draft, TableReader& table, Angles& angles) {
+Rows read_cylindrical(Draft& draft, TableReader& table, JointMotions& motions) {
   JointReader joint(draft, table, true);
   const JointAxes axes = joint.read_axes("axis");
   joint.parallel(axes);
   joint.on_axis(axes);
-  angles.push_back(joint.angle_about(axes));
+  motions.angles.push_back(joint.angle_about(axes));
+  motions.slides.push_back(joint.slide_along(axes));
   return joint.rows;
 }
 
-Rows read_prismatic(Draft& draft, TableReader& table, Angles&) {
+Rows read_prismatic(Draft& draft, TableReader& table, JointMotions& motions) {
   JointReader joint(draft, table, true);
   const JointAxes axes = joint.read_axes("axis");
   joint.parallel(axes);
   joint.turned_by(axes, 0.0);
   joint.on_axis(axes);
   if (table.has("length")) joint.along(axes.axis.from, draft.read_number(table, "length", "m", Range::any));
+  motions.slides.push_back(joint.slide_along(axes));
   return joint.rows;
 }
 
-Rows read_weld(Draft& draft, TableReader& table, Angles&) {
+Rows read_weld(Draft& draft, TableReader& table, JointMotions&) {
   JointReader joint(draft, table, true);
   joint.coincide();
   for (std::size_t i = 0; i < 3; ++i) joint.normal(unit_vector(i), joint.shared(unit_vector((i + 1) % 3)).to);
   return joint.rows;
 }
 
-Rows read_point_on_line(Draft& draft, TableReader& table, Angles&) {
+Rows read_point_on_line(Draft& draft, TableReader& table, JointMotions&) {
   JointReader joint(draft, table, false);
   joint.check_has_axes("from", joint.from_carrier, "the line");
   joint.on_axis(joint.read_axes("axis"));
   return joint.rows;
 }
 
-Rows read_point_on_plane(Draft& draft, TableReader& table, Angles&) {
+Rows read_point_on_plane(Draft& draft, TableReader& table, JointMotions&) {
   JointReader joint(draft, table, false);
   joint.check_has_axes("from", joint.from_carrier, "the plane");
   const JointAxes axes = joint.read_axes("normal");
   joint.along(axes.axis.from, draft.read_number(table, "distance", "m", Range::any, 0.0));
   return joint.rows;
+}
+
+/// The motions that can be coupled, by name: that of the joint, or NAME.slide beside an angle, or NAME.axis
+/// and NAME.cross_axis.
+std::map<std::string, CoupledMotion> named_motions(const Draft& draft) {
+  std::map<std::string, CoupledMotion> all;
+  for (const auto& [label, motions] : draft.joints) {
+    const bool two = motions.angles.size() > 1;
+    for (std::size_t i = 0; i < motions.angles.size(); ++i)
+      all[label + (two ? i == 0 ? ".axis" : ".cross_axis" : "")] = {{}, motions.angles[i], false};
+    for (const HingeAngle& slide : motions.slides)
+      all[label + (motions.angles.empty() ? "" : ".slide")] = {{}, slide, true};
+  }
+  return all;
+}
+
+/// Where a displacement begins: its value at the starting guess.
+Expression slide_at_guess(const Draft& draft, const HingeAngle& joint) {
+  const ExpressionVector axis = draft.at_guess(joint.axis), from = draft.at_guess(joint.from),
+                         to = draft.at_guess(joint.to);
+  Expression sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) sum = sum + axis[i] * (to[i] - from[i]);
+  return sum;
+}
+
+/// ratios . motions = 0, of motions from the starting guess.
+Rows couple(Draft& draft, TableReader& table, const std::vector<Expression>& ratios) {
+  const std::map<std::string, CoupledMotion> known = named_motions(draft);
+  std::vector<std::string> names;
+  for (const auto& [name, motion] : known) names.push_back(name);
+  const std::vector<std::string> joints = table.texts("joints");
+  if (joints.size() < 2 || joints.size() != ratios.size())
+    table.fail("joints", "expected two joints or more, and a ratio for each; found " +
+                             std::to_string(joints.size()) + " joints and " + std::to_string(ratios.size()) +
+                             " ratios");
+  ConstraintRow row;
+  Expression offset = 0.0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    index_of(joints[i], names, table, "joints", "joint that turns or slides");
+    CoupledMotion motion = known.at(joints[i]);
+    motion.ratio = draft.quantity(ratios[i]);
+    if (motion.slides) offset = offset + ratios[i] * slide_at_guess(draft, motion.joint);
+    row.coupled.push_back(motion);
+  }
+  row.offset = draft.quantity(offset);
+  return {row};
+}
+
+Rows read_coupler(Draft& draft, TableReader& table, JointMotions&) {
+  const std::vector<Expression> ratios = table.list("ratios", any_unit);
+  for (const Expression& ratio : ratios) draft.check_range(table, "ratios", ratio, Range::any);
+  return couple(draft, table, ratios);
+}
+
+Rows read_gear(Draft& draft, TableReader& table, JointMotions&) {
+  std::vector<Expression> teeth = table.list("teeth");
+  for (const Expression& number : teeth) draft.check_range(table, "teeth", number, Range::positive);
+  if (teeth.size() != 2)
+    table.fail("teeth", "expected the numbers of two wheels, found " + std::to_string(teeth.size()));
+  if (table.has("internal") && table.flag("internal")) teeth[1] = -teeth[1];
+  return couple(draft, table, teeth);
 }
 
 const FieldHelp from_help{"from", "place", "where it sits on one side"};
@@ -278,7 +342,22 @@ const std::vector<ConstraintKind>& constraint_kinds() {
         {"to", "place", "what stays on it"},
         {"normal", "direction", "normal of the plane"},
         {"distance", "m", "distance from the plane along the normal", "0"}},
-       read_point_on_plane}};
+       read_point_on_plane},
+      // They name joints, which are read before.
+      {"coupler",
+       "linear relation of joints: the sum of ratio times motion is zero",
+       {{"joints", "list of joints",
+         "two or more; the motion is the angle (rad) or the displacement (m) from the starting guess; "
+         "NAME.slide "
+         "of a cylindrical joint, NAME.axis and NAME.cross_axis of a universal one"},
+        {"ratios", "list", "a number for each"}},
+       read_coupler},
+      {"gear",
+       "two wheels that mesh: the sum of teeth times angle is zero",
+       {{"joints", "two joints", "that carry the wheels, with axes in the same direction"},
+        {"teeth", "list", "of each wheel; or their radii"},
+        {"internal", "true or false", "whether the second wheel is a ring around the first", "false"}},
+       read_gear}};
   return kinds;
 }
 
@@ -286,13 +365,13 @@ void read_constraints(Draft& draft) {
   for (const ConstraintKind& kind : constraint_kinds()) {
     if (kind.read == nullptr) continue;
     draft.for_each_table(kind.name, [&](TableReader& table, std::size_t i) {
-      std::vector<HingeAngle> angles;
-      Rows rows = kind.read(draft, table, angles);
+      JointMotions motions;
+      Rows rows = kind.read(draft, table, motions);
       const std::string label = label_of(table, kind.name, i);
       table.finish();
       const bool taken = !draft.constraint_labels.insert(label).second;
       if (taken) table.fail("name", "another constraint is called '" + label + "' already");
-      if (!angles.empty()) draft.joint_angles[label] = std::move(angles);
+      if (!motions.angles.empty() || !motions.slides.empty()) draft.joints[label] = std::move(motions);
       draft.add_constraint(kind.name, label, std::move(rows));
     });
   }

@@ -45,9 +45,11 @@ class FieldReader {
     const std::string key(key_view);
     const std::string name = table_.text(key);
     std::vector<std::string> names;
-    for (const auto& [label, angles] : draft_.joint_angles) names.push_back(label);
+    for (const auto& [label, motions] : draft_.joints) {
+      if (!motions.angles.empty()) names.push_back(label);
+    }
     index_of(name, names, table_, key, "joint with an angle (revolute, universal, cylindrical)");
-    const std::vector<HingeAngle>& angles = draft_.joint_angles.at(name);
+    const std::vector<HingeAngle>& angles = draft_.joints.at(name).angles;
     std::size_t which = 0;
     if (angles.size() > 1) {
       const std::string about = table_.text("about");

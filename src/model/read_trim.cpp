@@ -211,11 +211,11 @@ class TrimReader {
 
   TrimAngle angle(TableReader& table, const std::string& name) {
     std::vector<std::string> names;
-    for (const auto& [label, angles] : draft_.joint_angles) {
-      if (angles.size() == 1) names.push_back(label);
+    for (const auto& [label, motions] : draft_.joints) {
+      if (motions.angles.size() == 1) names.push_back(label);
     }
     index_of(name, names, table, "condition", "joint with one angle (revolute, cylindrical)");
-    TrimAngle result{draft_.joint_angles.at(name).front(), {}};
+    TrimAngle result{draft_.joints.at(name).angles.front(), {}};
     for (Place* direction : {&result.angle.axis, &result.angle.from, &result.angle.to}) {
       if (!direction->moves()) continue;
       direction->argument = static_cast<int>(result.arguments.size());

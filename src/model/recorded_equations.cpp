@@ -191,24 +191,9 @@ class BatchCollector {
   std::size_t kind_ = 0;
 };
 
-/// One row of a constraint. Its forces are -lambda times its gradient, so their derivatives are those of
-/// A^T lambda.
-void record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) {
-  ConstraintRow own = row;
-  std::vector<Place> arguments;
-  std::vector<Place*> places;
-  for (Difference* side : {&own.a, own.b ? &*own.b : nullptr}) {
-    if (side == nullptr) continue;
-    places.push_back(&side->first);
-    if (side->second) places.push_back(&*side->second);
-  }
-  for (Place* place : places) {
-    if (!place->moves()) continue;
-    place->argument = static_cast<int>(arguments.size());
-    arguments.push_back(*place);
-  }
-  ElementView<Recorded> at = recorder.view(arguments, 0, 0);
-  const Recorded lambda = recorder.multiplier(index);
+/// The product or the component that a row is, less its offset. Its forces are -lambda times its gradient, so
+/// their derivatives are those of A^T lambda.
+Recorded record_product(ElementView<Recorded>& at, const ConstraintRow& row, const Recorded& lambda) {
   const auto value = [&](const Difference& side) -> Vec3<Recorded> {
     const Vec3<Recorded> first = at.position(side.first);
     return side.second ? Vec3<Recorded>(first - at.position(*side.second)) : first;
@@ -218,17 +203,52 @@ void record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) 
     at.add_force(side.first, -force);
     if (side.second) at.add_force(*side.second, force);
   };
-  const Vec3<Recorded> a = value(own.a);
-  const Recorded offset = at.value(own.offset);
-  if (own.b) {
-    const Vec3<Recorded> b = value(*own.b);
-    add(own.a, b);
-    add(*own.b, a);
-    recorder.set_residual(a.dot(b) - offset);
-  } else {
-    add(own.a, Vec3<Recorded>::Unit(own.axis));
-    recorder.set_residual(a[own.axis] - offset);
+  const Vec3<Recorded> a = value(row.a);
+  const Recorded offset = at.value(row.offset);
+  if (!row.b) {
+    add(row.a, Vec3<Recorded>::Unit(row.axis));
+    return a[row.axis] - offset;
   }
+  const Vec3<Recorded> b = value(*row.b);
+  add(row.a, b);
+  add(*row.b, a);
+  return a.dot(b) - offset;
+}
+
+/// The same of coupled motions.
+Recorded record_coupling(ElementView<Recorded>& at, const ConstraintRow& row, const Recorded& lambda) {
+  Recorded sum = -at.value(row.offset);
+  for (const CoupledMotion& motion : row.coupled) {
+    const Recorded ratio = at.value(motion.ratio), force = -lambda * ratio;
+    const HingeAngle& joint = motion.joint;
+    if (motion.slides) {
+      const Vec3<Recorded> axis = at.position(joint.axis);
+      const Vec3<Recorded> d = at.position(joint.to) - at.position(joint.from);
+      at.add_force(joint.axis, force * d);
+      at.add_force(joint.to, force * axis);
+      at.add_force(joint.from, -force * axis);
+      sum = sum + ratio * axis.dot(d);
+    } else {
+      const detail::AngleAt<Recorded> theta(at, joint);
+      theta.add_moment(at, joint, force);
+      sum = sum + ratio * angle_of(theta.sine, theta.cosine);
+    }
+  }
+  return sum;
+}
+
+void record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) {
+  ConstraintRow own = row;
+  std::vector<Place> arguments;
+  ConstraintRow::for_each_place(own, [&](Place& place) {
+    if (!place.moves()) return;
+    place.argument = static_cast<int>(arguments.size());
+    arguments.push_back(place);
+  });
+  ElementView<Recorded> at = recorder.view(arguments, 0, 0);
+  const Recorded lambda = recorder.multiplier(index);
+  recorder.set_residual(own.coupled.empty() ? record_product(at, own, lambda)
+                                            : record_coupling(at, own, lambda));
   recorder.set_forces(at);
 }
 

@@ -83,9 +83,7 @@ class SpectrumComparison {
     if (worst > file_.accuracy.tolerance)
       return wrong("eigenvalue of " + file_.mode_at(mode, p) + " is off by " + short_text(worst, 3) +
                    " of its magnitude, " + of_tolerance(worst));
-    const std::ptrdiff_t missing =
-        follows_all_ ? missing_modes(s, exact, largest_, file_.accuracy.tolerance * file_.accuracy.reference)
-                     : 0;
+    const std::ptrdiff_t missing = follows_all_ ? missing_modes(s, exact, largest_, zero_at(place, s)) : 0;
     if (missing > 0)
       return wrong(count_text(static_cast<std::size_t>(missing), "eigenvalue") + " of the spectrum at " +
                    file_.at(p) + (missing == 1 ? " has" : " have") + " no mode");
@@ -108,6 +106,19 @@ class SpectrumComparison {
   bool wrong(std::string fault) {
     faults_.push_back(std::move(fault));
     return false;
+  }
+
+  /// Up to which magnitude eigenvalues are zero: what the tolerance allows, or rounding of those that are.
+  double zero_at(const PathPosition& place, const ComplexVector& s) const {
+    double zero = file_.accuracy.tolerance * file_.accuracy.reference;
+    const Matrix& rounding = file_.loci.rounding;
+    for (std::size_t node = place.step; node < place.step + 2; ++node) {
+      for (Eigen::Index i = 0; static_cast<Eigen::Index>(node) < rounding.rows() && i < s.size(); ++i) {
+        const double error = rounding(static_cast<Eigen::Index>(node), i);
+        if (std::abs(s[i]) <= error) zero = std::max(zero, error);
+      }
+    }
+    return zero;
   }
 
   std::string of_tolerance(double error) const {

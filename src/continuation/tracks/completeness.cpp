@@ -196,15 +196,16 @@ bool is_complex(const Track& track, double reference, double merged_distance) {
              merged_distance * std::max(std::abs(track.roots[0]), reference);
 }
 
-/// In a real block, a complex pair is two members, of which only that with Im s > 0 has a mode.
-void end_conjugates_within(Track& track, double reference, double merged_distance,
-                           std::vector<OnePair>& pairs) {
+/// In a real block, a complex pair is two members, of which only that with Im s > 0 has a mode. Two that are
+/// a pair by rounding alone may be real.
+void end_conjugates_within(Track& track, const RoundingThresholds& thresholds, std::vector<OnePair>& pairs) {
   if (!track.pair.is_real) return;
+  const Vector rounding = rounding_of_roots(track, thresholds);
   for (Eigen::Index i = 0; i < track.size(); ++i) {
     int& below = track.modes[static_cast<std::size_t>(i)];
     const Complex root = track.roots[i];
     if (below < 0 || !is_lower(root, track.pair.chart)) continue;
-    if (2.0 * std::abs(root.imag()) <= merged_distance * std::max(std::abs(root), reference)) continue;
+    if (std::abs(root.imag()) <= rounding[i]) continue;
     const Eigen::Index other = conjugate_of(track.roots, i);
     int& above = track.modes[static_cast<std::size_t>(other)];
     if (above >= 0) pairs.push_back({std::min(above, below), std::max(above, below)});
@@ -220,7 +221,7 @@ std::vector<OnePair> end_conjugates(const PathProblem& problem, PathNode& node) 
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     Track& kept = node.tracks[i];
     const double reference = problem.reference(kept.pair.chart);
-    end_conjugates_within(kept, reference, thresholds.merged_distance, pairs);
+    end_conjugates_within(kept, problem.thresholds.rounding, pairs);
     if (!is_complex(kept, reference, thresholds.merged_distance)) continue;
     const Track other = conjugated(kept);
     for (std::size_t j = node.tracks.size() - 1; j > i; --j) {

@@ -40,12 +40,8 @@ class Touched {
   void constraint(const Constraint& constraint) {
     for (const ConstraintRow& row : constraint.rows) {
       // A single place, not a difference of two, is held in the frame.
-      if (!row.b && !row.a.second) frame = true;
-      for (const Difference* side : {&row.a, row.b ? &*row.b : nullptr}) {
-        if (side == nullptr) continue;
-        place("", side->first);
-        if (side->second) place("", *side->second);
-      }
+      if (row.coupled.empty() && !row.b && !row.a.second) frame = true;
+      ConstraintRow::for_each_place(row, [this](const Place& one) { place("", one); });
     }
   }
 
