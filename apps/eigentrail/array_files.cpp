@@ -12,16 +12,33 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/core/version.hpp"
 
 namespace eigentrail::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Stands in the first bytes of every file: a file without it is somebody else's.
+constexpr const char* mark = "eigentrail";
+
+bool is_ours(const std::string& path) {
+  constexpr std::size_t header_of_matlab = 128;
+  std::string begin(header_of_matlab, '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), header_of_matlab);
+  return begin.find(mark) != std::string::npos;
+}
+
+/// What a kind of file is called, where it may be replaced.
+OutputFormat ours(const std::string& name) {
+  return {name + " of eigentrail", is_ours};
+}
 
 /// Extents of a single sample.
 std::vector<std::size_t> shape_of(const NamedSamples& array) {
@@ -145,7 +162,7 @@ std::string mat(const std::vector<NamedSamples>& arrays) {
   } memory;
   const std::string name = "/proc/self/fd/" + std::to_string(memory.descriptor);
   {
-    const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(Mat_CreateVer(name.c_str(), nullptr, MAT_FT_MAT5),
+    const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(Mat_CreateVer(name.c_str(), mark, MAT_FT_MAT5),
                                                             &Mat_Close);
     if (!file) throw std::runtime_error("a file of MATLAB cannot be written into memory");
     for (const NamedSamples& array : arrays) {
@@ -192,13 +209,9 @@ std::string matrix_market(const Matrix& matrix) {
       entries += std::to_string(i + 1) + " " + std::to_string(j + 1) + " " + exact_text(matrix(i, j)) + "\n";
     }
   }
-  return "%%MatrixMarket matrix coordinate real general\n" + std::to_string(matrix.rows()) + " " +
-         std::to_string(matrix.cols()) + " " + std::to_string(count) + "\n" + entries;
-}
-
-/// What a file of a kind begins with, which tells whether it may replace another one.
-OutputFormat kind(const std::string& name, const std::string& beginning) {
-  return {name, [beginning](const std::string& path) { return begins_with(path, beginning); }};
+  return "%%MatrixMarket matrix coordinate real general\n% " + std::string(mark) + "\n" +
+         std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " + std::to_string(count) +
+         "\n" + entries;
 }
 
 bool is_file(const NamedSamples& array) {
@@ -208,16 +221,24 @@ bool is_file(const NamedSamples& array) {
 std::vector<ArrayFile> folder_of(const std::string& output, const std::vector<NamedSamples>& arrays) {
   const std::filesystem::path folder = output;
   std::vector<ArrayFile> files;
+  std::set<std::filesystem::path> names;
   std::vector<NamedSamples> others;
   for (const NamedSamples& array : arrays) {
     if (!is_file(array)) {
       others.push_back(array);
       continue;
     }
-    files.push_back({folder / (array.name + ".mtx"), kind("file of Matrix Market", "%%MatrixMarket"),
+    files.push_back({folder / (array.name + ".mtx"), ours("file of Matrix Market"),
                      matrix_market(array.samples.front())});
   }
-  files.push_back({folder / "model.json", kind("file of JSON", "{"), json_text(others)});
+  files.push_back({folder / "model.json", ours("file of JSON"), json_text(others)});
+  for (const ArrayFile& file : files) names.insert(file.path);
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".mtx" && !names.contains(entry.path()))
+      throw InputError(entry.path().string() +
+                       ": is a matrix of something else; give another folder, or remove it");
+  }
   return files;
 }
 
@@ -233,11 +254,12 @@ void check_array_output(const std::string& output, std::size_t samples) {
                      ": expected a name that ends in .npz, .mat or .json, or a folder without an ending");
 }
 
-std::vector<ArrayFile> array_files(const std::string& output, const std::vector<NamedSamples>& arrays) {
+std::vector<ArrayFile> array_files(const std::string& output, std::vector<NamedSamples> arrays) {
+  arrays.insert(arrays.begin(), {mark, 1, {}, {version()}});
   const std::string ending = extension_of(output);
-  if (ending == ".npz") return {{output, kind("archive of NumPy", "PK"), npz(arrays)}};
-  if (ending == ".mat") return {{output, kind("file of MATLAB", "MATLAB 5.0"), mat(arrays)}};
-  if (ending == ".json") return {{output, kind("file of JSON", "{"), json_text(arrays)}};
+  if (ending == ".npz") return {{output, ours("archive of NumPy"), npz(arrays)}};
+  if (ending == ".mat") return {{output, ours("file of MATLAB"), mat(arrays)}};
+  if (ending == ".json") return {{output, ours("file of JSON"), json_text(arrays)}};
   return folder_of(output, arrays);
 }
 

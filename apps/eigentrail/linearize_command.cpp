@@ -50,20 +50,17 @@ int run_linearize(LinearizeArguments& arguments) {
           ? std::vector{setup.options.from}
           : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
   check_array_output(arguments.output.path, values.size());
-  std::vector<LinearModel> models = linear_models(setup, values, arguments.inputs);
-  int code = done;
-  for (const LinearModel& model : models) {
-    if (model.fault.empty()) continue;
-    code = numbers_failed;
-    std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(),
-                 exact_text(model.p).c_str(), printable(model.fault).c_str());
-  }
-  std::erase_if(models, [](const LinearModel& model) { return !model.fault.empty(); });
-  if (models.empty()) return code;
-  const std::vector<NamedSamples> arrays = arrays_of(setup, models, arguments.inputs);
+  for (std::string& input : arguments.inputs) input = trimmed(input);
+  const LinearModels models = linear_models(setup, values, arguments.inputs);
+  for (const auto& [p, fault] : models.faults)
+    std::fprintf(stderr, "eigentrail: %s = %s: %s\n", setup.options.parameter.c_str(), exact_text(p).c_str(),
+                 printable(fault).c_str());
+  for (const std::string& note : models.notes) warn(note);
+  if (models.found.empty()) return numbers_failed;
+  const std::vector<NamedSamples> arrays = arrays_of(setup, models.found, arguments.inputs);
   write(array_files(arguments.output.path, arrays), arguments.output);
-  if (!arguments.output.quiet) print_summary(setup, models, arrays, arguments.output.path);
-  return code;
+  if (!arguments.output.quiet) print_summary(setup, models.found, arrays, arguments.output.path);
+  return models.faults.empty() ? done : numbers_failed;
 }
 
 }  // namespace
@@ -78,7 +75,7 @@ void add_linearize(CLI::App& program, int& exit_code) {
       "parameter values, as for spectrum; default: the value of --set, or where the trace begins");
   command
       ->add_option("--inputs", arguments->inputs,
-                   "parameters of the scene that forces contain: their changes are inputs")
+                   "parameters that forces of the scene contain: changes of their values are inputs")
       ->delimiter(',');
   add_output(*command, arguments->output,
              "file that ends in .npz, .mat or .json, or a folder for files of Matrix Market; default: "

@@ -40,6 +40,26 @@ inline std::string_view trimmed(std::string_view text, std::string_view blanks =
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/// Adds a code point in UTF-8.
+inline void append_utf8(std::string& text, std::uint32_t c) {
+  const auto tail = [&](int shift) { text += static_cast<char>(0x80U | ((c >> shift) & 0x3FU)); };
+  if (c < 0x80U) {
+    text += static_cast<char>(c);
+  } else if (c < 0x800U) {
+    text += static_cast<char>(0xC0U | (c >> 6U));
+    tail(0);
+  } else if (c < 0x10000U) {
+    text += static_cast<char>(0xE0U | (c >> 12U));
+    tail(6);
+    tail(0);
+  } else {
+    text += static_cast<char>(0xF0U | ((c >> 18U) & 7U));
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
 /// The parts of a text between separators.
 inline std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;

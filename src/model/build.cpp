@@ -84,7 +84,8 @@ InputError without_error(const Scene& scene, const std::string& effect, const st
     const auto* names = without == nullptr ? nullptr : std::get_if<std::string>(&without->data);
     if (names != nullptr && names->find(effect) != std::string::npos) where = without->where;
   }
-  return scene_error(scene, where, "[trace] without: '" + effect + "' " + message);
+  const std::string text = "without: '" + effect + "' " + message;
+  return where == SourceLocation{} ? InputError("--" + text) : scene_error(scene, where, "[trace] " + text);
 }
 
 }  // namespace eigentrail

@@ -39,6 +39,8 @@ struct Carrier {
   int body = -1;
   int point = -1;
 
+  friend bool operator==(const Carrier&, const Carrier&) = default;
+
   bool is_frame() const { return body < 0 && point < 0; }
 };
 
@@ -48,6 +50,7 @@ using Combination = std::vector<std::pair<int, Expression>>;
 /// What a joint can do: its angles, and the displacement along its axis as the places axis, from and to.
 struct JointMotions {
   std::vector<HingeAngle> angles, slides;
+  Carrier from = {}, to = {};  ///< of a joint with one angle: what its two sides move with
 };
 
 struct Draft {

@@ -76,6 +76,12 @@ class JointReader {
   }
 
   HingeAngle slide_along(const JointAxes& axes) { return {on_from(axes.axis.from), from, to}; }
+  /// The joint with its angle about these axes.
+  void turns_about(const JointAxes& axes, JointMotions& motions) {
+    motions.from = from_carrier;
+    motions.to = to_carrier;
+    motions.angles.push_back(angle_about(axes));
+  }
 
   /// The places coincide.
   void coincide() {
@@ -147,7 +153,7 @@ Rows read_revolute(Draft& draft, TableReader& table, JointMotions& motions) {
   joint.coincide();
   joint.parallel(axes);
   if (table.has("angle")) joint.turned_by(axes, draft.read_number(table, "angle", "rad", Range::any));
-  motions.angles.push_back(joint.angle_about(axes));
+  joint.turns_about(axes, motions);
   return joint.rows;
 }
 
@@ -177,7 +183,7 @@ Rows read_cylindrical(Draft& draft, TableReader& table, JointMotions& motions) {
   const JointAxes axes = joint.read_axes("axis");
   joint.parallel(axes);
   joint.on_axis(axes);
-  motions.angles.push_back(joint.angle_about(axes));
+  joint.turns_about(axes, motions);
   motions.slides.push_back(joint.slide_along(axes));
   return joint.rows;
 }
@@ -252,6 +258,9 @@ Rows couple(Draft& draft, TableReader& table, const std::vector<Expression>& rat
   Expression offset = 0.0;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     index_of(joints[i], names, table, "joints", "joint that turns or slides");
+    if (std::find(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(i), joints[i]) !=
+        joints.begin() + static_cast<std::ptrdiff_t>(i))
+      table.fail("joints", "has '" + joints[i] + "' twice");
     CoupledMotion motion = known.at(joints[i]);
     motion.ratio = draft.quantity(ratios[i]);
     if (motion.slides) offset = offset + ratios[i] * slide_at_guess(draft, motion.joint);
@@ -267,12 +276,37 @@ Rows read_coupler(Draft& draft, TableReader& table, JointMotions&) {
   return couple(draft, table, ratios);
 }
 
+/// +1 if the angles of two joints count the turns of their wheels, on the body or the frame that carries
+/// both, about the same direction; -1 if about opposite ones.
+double common_sense(const Draft& draft, const TableReader& table, const JointMotions& a,
+                    const JointMotions& b) {
+  if (!(a.from == b.from || a.to == b.to || a.from == b.to || a.to == b.from))
+    table.fail("joints", "expected the joints of two wheels on one body, or on the frame, that carries both");
+  const ExpressionVector axis = draft.at_guess(a.angles.front().axis),
+                         other = draft.at_guess(b.angles.front().axis);
+  const auto cosine = [&](std::size_t i) { return draft.vector_at(axis, i).dot(draft.vector_at(other, i)); };
+  draft.require(table, "joints", "the axes of two wheels must be parallel; [[coupler]] relates other joints",
+                [&](std::size_t i) { return std::abs(cosine(i)) > 1.0 - 1e-9; });
+  const double side = a.from == b.from || a.to == b.to ? 1.0 : -1.0;
+  return cosine(0) > 0.0 ? side : -side;
+}
+
 Rows read_gear(Draft& draft, TableReader& table, JointMotions&) {
   std::vector<Expression> teeth = table.list("teeth");
   for (const Expression& number : teeth) draft.check_range(table, "teeth", number, Range::positive);
   if (teeth.size() != 2)
     table.fail("teeth", "expected the numbers of two wheels, found " + std::to_string(teeth.size()));
-  if (table.has("internal") && table.flag("internal")) teeth[1] = -teeth[1];
+  std::vector<std::string> names;
+  for (const auto& [label, motions] : draft.joints) {
+    if (motions.angles.size() == 1) names.push_back(label);
+  }
+  const std::vector<std::string> joints = table.texts("joints");
+  if (joints.size() != 2) table.fail("joints", "expected two joints, found " + std::to_string(joints.size()));
+  for (const std::string& joint : joints)
+    index_of(joint, names, table, "joints", "joint that turns about one axis");
+  const double sense = common_sense(draft, table, draft.joints.at(joints[0]), draft.joints.at(joints[1]));
+  const bool internal = table.has("internal") && table.flag("internal");
+  teeth[1] = (internal ? -sense : sense) * teeth[1];
   return couple(draft, table, teeth);
 }
 
@@ -353,8 +387,8 @@ const std::vector<ConstraintKind>& constraint_kinds() {
         {"ratios", "list", "a number for each"}},
        read_coupler},
       {"gear",
-       "two wheels that mesh: the sum of teeth times angle is zero",
-       {{"joints", "two joints", "that carry the wheels, with axes in the same direction"},
+       "two wheels that mesh: they turn in opposite directions, by angles as the inverse of their teeth",
+       {{"joints", "two joints", "of the wheels with what carries both, about parallel axes"},
         {"teeth", "list", "of each wheel; or their radii"},
         {"internal", "true or false", "whether the second wheel is a ring around the first", "false"}},
        read_gear}};

@@ -7,18 +7,28 @@
 
 namespace eigentrail {
 
+/// The coordinates with mass: columns of M that are not zero.
+template <class Values>
+std::vector<Eigen::Index> coordinates_with_mass(const Values& M) {
+  std::vector<Eigen::Index> with_mass;
+  for (Eigen::Index j = 0; j < M.cols(); ++j) {
+    if (!M.col(j).isZero(0.0)) with_mass.push_back(j);
+  }
+  return with_mass;
+}
+
 /// a y = mu b y with y = [z; mu z_m], z_m the coordinates with mass: first their velocities, then the n
 /// equations. Those without have no velocity as a state: s C z stands on the right side for them.
 template <class Values>
 struct CompanionForm {
   Values a, b;
-  std::vector<Eigen::Index> with_mass = {};  ///< columns of M that are not zero
 
-  CompanionForm(const Values& M, const Values& C, const Values& K) {
+  CompanionForm(const Values& M, const Values& C, const Values& K)
+      : CompanionForm(M, C, K, coordinates_with_mass(M)) {}
+
+  CompanionForm(const Values& M, const Values& C, const Values& K,
+                const std::vector<Eigen::Index>& with_mass) {
     const Eigen::Index n = M.rows();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      if (!M.col(j).isZero(0.0)) with_mass.push_back(j);
-    }
     const auto m = static_cast<Eigen::Index>(with_mass.size());
     a = Values::Zero(m + n, n + m);
     b = a;

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 
@@ -266,15 +267,17 @@ class MatReader {
     const std::size_t rows = variable.dims[0], columns = variable.dims[1];
     check_holds(variable, name_of(variable), rows * columns, Mat_SizeOf(variable.data_type));
     std::vector<std::string> lines(rows);
-    for (std::size_t i = 0; i < rows * columns; ++i) lines[i % rows] += character(variable, i);
+    for (std::size_t i = 0; i < rows * columns; ++i) add_character(variable, i, lines[i % rows]);
     for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
     return lines;
   }
 
-  static char character(const matvar_t& variable, std::size_t i) {
-    if (Mat_SizeOf(variable.data_type) == 1) return static_cast<const char*>(variable.data)[i];
-    const double code = number(variable.data_type, variable.data, i);
-    return code < 128.0 ? static_cast<char>(code) : '?';
+  static void add_character(const matvar_t& variable, std::size_t i, std::string& line) {
+    if (Mat_SizeOf(variable.data_type) == 1) {
+      line += static_cast<const char*>(variable.data)[i];
+    } else {
+      append_utf8(line, static_cast<std::uint32_t>(number(variable.data_type, variable.data, i)));
+    }
   }
 
   /// The parts of complex numbers are stored apart; imaginary parts must be zero.

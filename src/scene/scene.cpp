@@ -11,7 +11,7 @@ namespace eigentrail {
 namespace {
 
 std::string at(SourceLocation where) {
-  return where.line == 0 ? ": "
+  return where.line <= 0 ? ": "
                          : ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
@@ -126,8 +126,14 @@ const Value& TableReader::require(const std::string& key, const std::string& exp
 
 void TableReader::fail(const std::string& key, const std::string& message) const {
   const Value* value = table_.find(key);
-  throw scene_error(scene_, value != nullptr ? value->where : table_.where,
-                    label_ + " " + key + ": " + message);
+  const SourceLocation where = value != nullptr ? value->where : table_.where;
+  const std::string name = label_ + " " + key;
+  if (where == given_as_option) {
+    std::string option = name.substr(name.find(' ') + 1);  // without [trace]
+    std::ranges::replace(option, '_', '-');
+    throw InputError("--" + option + ": " + printable(message));
+  }
+  throw scene_error(scene_, where, name + ": " + message);
 }
 
 Expression TableReader::to_expression(const Value& value, const std::string& key, WantedUnit unit) {

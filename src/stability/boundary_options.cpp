@@ -23,13 +23,6 @@ OptionTexts trace_overrides(const BoundaryRequest& request) {
 }
 
 void check_numbers(const BoundaryOptions& options) {
-  for (const auto& [key, value] :
-       {std::pair("--second-from", options.second_from), std::pair("--second-to", options.second_to)}) {
-    if (!std::isfinite(value)) throw InputError(std::string(key) + ": is not a finite number");
-  }
-  if (!(options.second_from < options.second_to))
-    throw InputError("--second-to: expected more than --second-from (" + exact_text(options.second_from) +
-                     "), found " + exact_text(options.second_to) + ": the window is empty");
   if (options.lines < 0 || options.lines > 1000)
     throw InputError("--lines: must lie between 0 and 1000; found " + std::to_string(options.lines));
   if (options.damping_ratio && !(std::abs(*options.damping_ratio) < 1.0))
@@ -47,8 +40,8 @@ BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   std::set<int> used;
   options.trace = read_trace_options(setup.scene, trace_overrides(request), used);
   options.second = request.second;
-  options.second_from = request.from;
-  options.second_to = request.to;
+  check_second_range(request.from, request.to);
+  std::tie(options.second_from, options.second_to) = std::minmax(request.from, request.to);
   const std::vector<double> ratios = options.trace.events.values(EventKind::damping_ratio);
   if (!request.damping_ratio && ratios.size() > 1)
     throw InputError("--damping-ratio: the scene's [events] has " + std::to_string(ratios.size()) +

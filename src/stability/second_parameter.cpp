@@ -1,5 +1,6 @@
 #include "stability/second_parameter.hpp"
 
+#include <cmath>
 #include <map>
 
 #include "eigentrail/core/text.hpp"
@@ -20,6 +21,14 @@ void check_second_parameter(const Scene& scene, const std::string& second, const
           "'" + second + "' is the unknown of a [[trim]]; vary another parameter");
   require(!parameters.at(second).definition,
           "'" + second + "' is defined by an expression; vary one of the parameters in it");
+}
+
+void check_second_range(double from, double to) {
+  for (const auto& [key, value] : {std::pair("--second-from", from), std::pair("--second-to", to)}) {
+    if (!std::isfinite(value)) throw InputError(std::string(key) + ": is not a finite number");
+  }
+  if (from == to)
+    throw InputError("--second-to: equals --second-from (" + exact_text(from) + "): the window is empty");
 }
 
 void require_first_range(const Scene& scene, const OptionTexts& overrides) {

@@ -10,6 +10,9 @@ namespace eigentrail {
 /// by an expression, is not trimmed, and differs from `first`.
 void check_second_parameter(const Scene& scene, const std::string& second, const std::string& first);
 
+/// Throws InputError unless the range of the second parameter is finite and has a length.
+void check_second_range(double from, double to);
+
 /// Throws InputError unless the options, `overrides`, or the scene give the range of the first parameter. The
 /// scene's is that of the parameter which it names.
 void require_first_range(const Scene& scene, const OptionTexts& overrides);

@@ -20,10 +20,7 @@ void check_options(const MapOptions& options, const TraceOptions& trace, const S
     if (!holds) throw InputError(message);
   };
   check_second_parameter(scene, options.second, trace.parameter);
-  require(std::isfinite(options.from) && std::isfinite(options.to),
-          "--second-from, --second-to: expected finite numbers");
-  require(options.from != options.to,
-          "--second-to: equals --second-from (" + exact_text(options.from) + "): the window is empty");
+  check_second_range(options.from, options.to);
   const std::string grid = std::to_string(options.n_second) + "x" + std::to_string(options.n_first);
   require(options.n_first >= 2 && options.n_second >= 2,
           "--grid: expected at least 2 values of each parameter, found " + grid);

@@ -269,6 +269,10 @@ class Refusals(BoundaryTest):
         self.refuse(["scene.toml: no line of the window could be begun; choose another range"], second="drag",
                     scene=NO_EQUILIBRIUM, options=["-q"])
 
+    def test_the_second_range_may_descend(self):
+        curves = [self.boundary(ISLAND, "Q", *ends, "--force")["dense_output"] for ends in ((-1, 1), (1, -1))]
+        np.testing.assert_array_equal(*curves)
+
     def test_force_replaces_a_boundary_file(self):
         self.square(CALM)
         self.square(ISLAND, "--force")

@@ -82,7 +82,7 @@ class UnknownNames(CommandTest):
                 self.assert_refused(self.run_program(*command), fragments)
 
     def test_tables(self):
-        for table, *fragments in (("[[gear]]", "gear: unknown key, not supported;", "docs/scene-tables.md"),
+        for table, *fragments in (("[[cable]]", "cable: unknown key, not supported;", "docs/scene-tables.md"),
                                   ("[[wheel]]", "wheel: unknown key, not supported;", "docs/scene-tables.md"),
                                   ("[[sprng]]", "sprng: unknown key, not supported; did you mean 'spring'?")):
             self.write("scene.toml", BLADE + f"\n{table}\nratio = 2\n")
@@ -418,7 +418,7 @@ class Explain(CommandTest):
             "torsional_spring", "damper", "torsional_damper", "maxwell_damper",
             "torsional_maxwell_damper", "internal_damping", "bearing", "spinning_disc",
             "blade_element", "beam", "beam_damping", "strips", "lift_lag", "apparent_mass", "inflow", "directors", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic",
-            "weld", "point_on_line", "point_on_plane"})
+            "weld", "point_on_line", "point_on_plane", "coupler", "gear"})
 
     def test_sizes_structure_and_solvers_follow(self):
         self.write("scene.toml", BLADE)

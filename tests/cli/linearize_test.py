@@ -1,6 +1,7 @@
 """`eigentrail linearize`: matrices with the eigenvalues of `spectrum`, in every format, and back through `import`."""
 
 import json
+import re
 import unittest
 
 import numpy as np
@@ -69,6 +70,15 @@ class Linearize(CommandTest):
         self.assertEqual(model["state_E"].shape, (3, 3))
         self.assertEqual(len(model["rate_names"]), 1)
 
+    def test_states_are_the_same_at_all_values(self):
+        """A coordinate that has no mass at one of them."""
+        self.write("scene.toml", '[trace]\nparameter = "m"\nfrom = 0\nto = 1\n[matrix_family]\nM = [[[1, 0], [0, 0]], [[0, 0], [0, 1]]]\n'
+                                 'C = [[[0, 0], [0, 1]]]\nK = [[[4, -1], [-1, 2]]]\n')
+        model = self.linearized("scene.toml", "--at", "0", "1")
+        self.assertEqual(model["state_E"].shape, (2, 4, 4))
+        self.assertEqual(np.linalg.matrix_rank(model["state_E"]).tolist(), [3, 4])
+        self.assertEqual(self.linearized("scene.toml", "--at", "0")["state_E"].shape, (3, 3))
+
     def test_formats_hold_the_same_numbers(self):
         scene = SCENES / "hinged_blade.toml"
         for values in (["20"], ["20", "40"]):
@@ -112,13 +122,16 @@ class Linearize(CommandTest):
         self.assertEqual(list(self.linearized("scene.toml")["state_names"]), ["Δφ", "x"])
         mat = scipy.io.loadmat(self.linearized("scene.toml", output="linear.mat"))
         self.assertEqual(str(mat["state_names"][0, 0][0]), "Δφ")
+        self.run_well("import", "matlab", "linear.mat", "-o", "back")
+        self.assertIn("Δφ", self.run_well("spectrum", "back/linear.toml"))
 
     def test_mistakes(self):
         self.write("scene.toml", PUSHED_PENDULUM)
         self.write("family.toml", FAMILY)
         for options, message in [
                 (["scene.toml", "--inputs", "q"], "input 'q': expected a parameter of the scene"),
-                (["family.toml", "--inputs", "p"], "input 'p': exerts no force at the equilibrium"),
+                (["family.toml", "--inputs", "p"], "input 'p': a rotor, or a family of matrices, has no forces"),
+                (["scene.toml", "--inputs", "p, p"], "input 'p': is given twice"),
                 ([SCENES / "double_pendulum.toml", "--inputs", "l2"], "input 'l2': changes the constraint"),
                 (["scene.toml", "-o", "linear.csv"], "linear.csv: expected a name that ends in .npz, .mat or .json"),
                 (["scene.toml", "-o", "folder", "--at", "0", "0.5"], "holds the matrices of one value; found 2 values")]:
@@ -128,8 +141,42 @@ class Linearize(CommandTest):
                 self.assertIn(message, run.stderr)
         self.run_well("linearize", "scene.toml", "-o", "linear.npz")
         self.assertIn("exists already", self.run_program("linearize", "scene.toml", "-o", "linear.npz").stderr)
-        self.write("other.npz", "text")
-        self.assertIn("is no readable archive of NumPy", self.run_program("linearize", "scene.toml", "-o", "other.npz", "--force").stderr)
+        np.savez(self.folder / "other.npz", M=np.eye(2))
+        for name, text in (("other.json", '{"name": "a package"}'), ("other.mat", "MATLAB 5.0")):
+            self.write(name, text)
+        for name in ("other.npz", "other.json", "other.mat"):
+            self.assertIn("is no readable ", self.run_program("linearize", "scene.toml", "-o", name, "--force").stderr)
+
+    def test_a_folder_has_the_matrices_of_one_model(self):
+        self.write("scene.toml", PUSHED_PENDULUM)
+        self.run_well("linearize", "scene.toml", "--inputs", "p", "-o", "folder")
+        run = self.run_program("linearize", "scene.toml", "-o", "folder", "--force")
+        self.assertEqual(run.returncode, EXIT_BAD_INPUT)
+        self.assertRegex(run.stderr, r"folder/(F|F_full|state_B)\.mtx: is a matrix of something else")
+        self.run_well("linearize", "scene.toml", "--inputs", "p", "-o", "folder", "--force")
+
+    def test_inputs_without_force_are_noted(self):
+        """Drag where nothing moves: a column of zeros, and a warning."""
+        run = self.run_program("linearize", SCENES / "watt_governor.toml", "--inputs", "dashpot", "-o", "linear.npz")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("input 'dashpot' exerts no force at this equilibrium", run.stderr)
+        self.assertTrue((np.load(self.folder / "linear.npz")["F"] == 0).all())
+
+    def test_a_trimmed_parameter_is_an_input(self):
+        """Collective pitch: as the same parameter without its trim."""
+        text = (SCENES / "air_resonance.toml").read_text(encoding="utf-8")
+        self.write("scene.toml", text)
+        model = self.linearized("scene.toml", "--inputs", "pitch")
+        pitch = float(model["trimmed"][list(model["trimmed_names"]).index("pitch")])
+        self.assertGreater(np.abs(model["F"]).max(), 1.0)
+        self.write("free.toml", re.sub(r"(?m)^thrust .*$|^\[\[trim\]\]\n(.+\n)+", "", text))
+        one = self.linearized("free.toml", "--set", f"pitch={pitch!r}", "--inputs", "pitch")
+        np.testing.assert_allclose(one["F_full"], model["F_full"], rtol=1e-8, atol=1e-8 * np.abs(model["F_full"]).max())
+
+    def test_a_parameter_with_the_name_of_a_matrix(self):
+        self.write("scene.toml", '[trace]\nparameter = "E"\nfrom = 1\nto = 2\n[matrix_family]\nM = [[[1]]]\nK = [[[1]], [[1]]]\n')
+        self.assertIn("parameter", self.linearized("scene.toml", "--at", "1", "1.5", "2"))
+        self.run_well("import", "numpy", "linear.npz", "-o", "back")
 
     def test_a_value_without_equilibrium_is_left_out(self):
         self.write("scene.toml", PUSHED_PENDULUM)

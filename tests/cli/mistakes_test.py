@@ -212,7 +212,7 @@ SCENES = [
 
 COMMANDS = [
     ("misprint of a command", ["trase", "scene.toml"], "unknown command 'trase'; did you mean 'trace'?"),
-    ("value without its unit's spelling", ["trace", "scene.toml", "--to", "5 RPM"], "[trace] to: unit 'RPM' is not known",
+    ("value without its unit's spelling", ["trace", "scene.toml", "--to", "5 RPM"], "--to: unit 'RPM' is not known",
      "did you mean 'rpm'?"),
     ("value in another unit", ["spectrum", "scene.toml", "--at", "5 mm"], "--at 5 mm: 5 mm does not fit omega, which is in rad/s"),
     ("setting without its value", ["trace", "scene.toml", "--set", "drag"], "--set drag: expected NAME=VALUE"),

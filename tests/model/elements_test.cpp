@@ -140,10 +140,14 @@ const std::vector<ElementCase> cases = {
      "[[revolute]]\nname = \"hinge\"\nfrom = \"c.tip\"\nto = \"d\"\naxis = [1, 2, 3]\n"
      "[[cylindrical]]\nname = \"guide\"\nfrom = [0, \"p\", 0.2]\nto = \"c\"\naxis = [1, \"p\", 0]\n"
      "[[coupler]]\njoints = [\"hinge\", \"guide\", \"guide.slide\"]\nratios = [\"p\", -2, \"3*p\"]\n"},
-    {"gear",
+    {"coupled_universal_joint",
      "[[universal]]\nname = \"cross\"\nfrom = \"c.tip\"\nto = \"d\"\naxis = \"c.x\"\ncross_axis = "
      "\"c.z\"\n"
-     "[[gear]]\njoints = [\"cross.axis\", \"cross.cross_axis\"]\nteeth = [\"10*p\", 7]\ninternal = true\n"},
+     "[[coupler]]\njoints = [\"cross.axis\", \"cross.cross_axis\"]\nratios = [\"10*p\", 7]\n"},
+    {"gear",
+     "[[revolute]]\nname = \"pinion\"\nfrom = [0.1, 0, 0]\nto = \"c\"\naxis = [1, 2, \"p\"]\n"
+     "[[revolute]]\nname = \"ring\"\nfrom = \"d\"\nto = [0, \"p\", 0]\naxis = [-1, -2, \"-p\"]\n"
+     "[[gear]]\njoints = [\"pinion\", \"ring\"]\nteeth = [\"10*p\", 7]\ninternal = true\n"},
     {"prismatic", "[[prismatic]]\nfrom = \"c\"\nto = \"d\"\naxis = \"c.x\"\nlength = \"p\"\n"},
     {"prismatic_free", "[[prismatic]]\nfrom = [0, 0, \"p\"]\nto = \"d\"\naxis = [\"p\", 1, 0]\n"},
     {"weld", "[[weld]]\nfrom = \"c.tip\"\nto = \"d\"\n"},

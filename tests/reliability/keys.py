@@ -35,6 +35,9 @@ KINDS = [
     (r"axis", '"x"', ("1", "[1, 0, 0]"), "a text"),
     (r"\[x, y, z\].*", "[1, 0, 0]", ('"x"', "[1, 2]", "{}"), "three numbers or expressions [x, y, z]"),
     (r"2 x 2.*", "[[1, 0], [0, 1]]", ("1", "true", "[1, 2]", "[[1, 2]]"), "expected"),
+    (r"(list of|two) joints", '["hinge", "pin"]', ("1", "true", "[1]"), "expected"),
+    (r"list", "[1, 2]", ("true", "{}"), "expected"),
+    (r"true or false", "true", ("1", "[]"), "true or false"),
     (r"{.*", None, ("1", "true", "[]"), "a table"),
     (r"", "0.5", ("true", "[1]", '"1 +"'), ""),  # a number, its unit being what the reference says
 ]
@@ -75,7 +78,19 @@ on = "wing"
 chord = 0.2
 wind = [0, -5, 0]
 """
-BESIDE = {"[[beam_damping]]": WING, "[[strips]]": WING, "[[lift_lag]]": AIR, "[[apparent_mass]]": AIR}
+WHEEL = """
+[[body]]
+name = "wheel"
+mass = 1
+inertia = [1, 1, 1]
+position = [3, 0, 0]
+[[revolute]]
+name = "pin"
+from = [3, 0, 0]
+to = "wheel"
+axis = [0, 1, 0]
+"""
+BESIDE = {"[[gear]]": WHEEL, "[[coupler]]": WHEEL, "[[beam_damping]]": WING, "[[strips]]": WING, "[[lift_lag]]": AIR, "[[apparent_mass]]": AIR}
 
 
 def kind_of(unit):

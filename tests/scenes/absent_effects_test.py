@@ -57,7 +57,7 @@ class AbsentEffectsTest(ProgramTest):
     @staticmethod
     def constraints():
         return ["rod", "plane", "fixed", "ball", "revolute", "universal", "cylindrical", "prismatic", "weld",
-                "point_on_line", "point_on_plane"]
+                "point_on_line", "point_on_plane", "coupler", "gear"]
 
 
 if __name__ == "__main__":

@@ -49,10 +49,22 @@ class Coupled(SceneTest):
         self.check(HEAD + A + B + gear, lambda n: [math.sqrt(9.81 * (0.6 + 0.2 * n * n) / (I_A + I_B * n * n))], (1, 2, 5),
                    "--parameter", "n", "--from", "1", "--to", "5")
 
+    def test_wheels_turn_in_opposite_directions_however_their_joints_are_declared(self):
+        """Weights off the vertical on both arms tell the sense."""
+        A = pendulum("a", "first", 2.0, 0.3).replace("centre = [0.3, 0, 0]", "centre = [0.3, 0, 0.2]")
+        turned = B.replace("centre = [0.2, 0, 0]", "centre = [0.2, 0, 0.1]")
+        gear = '[[gear]]\njoints = ["first", "second"]\nteeth = ["n", 1]\n'
+        expected = self.nodes(self.trace_text(HEAD + A + turned + gear))[1][0]
+        for before, behind in (("\naxis = [0, 1, 0]", "\naxis = [0, -3, 0]"), ('from = [1, 0, 0]\nto = "b"', 'from = "b"\nto = [1, 0, 0]')):
+            found = self.nodes(self.trace_text(HEAD + A + turned.replace(before, behind) + gear))[1][0]
+            np.testing.assert_allclose(found, expected, rtol=1e-12)
+        internal = self.nodes(self.trace_text(HEAD + A + turned + gear + "internal = true\n"))[1][0]
+        self.assertGreater(np.abs(internal - expected).max(), 0.01)
+
     def test_a_wheel_on_the_arm_that_it_meshes_with(self):
-        """The second pendulum hangs from the end of the first; angles are those of the joints."""
+        """The second pendulum hangs from the end of the first; it rolls on a wheel that is at rest, outside or inside."""
         B_on_a = pendulum("b", "second", 1.0, 0.2, (0, 0, -0.5), '"a.end"')
-        for internal, sign in (("false", -1.0), ("true", 1.0)):
+        for internal, sign in (("false", 1.0), ("true", -1.0)):
             gear = f'[[gear]]\njoints = ["first", "second"]\nteeth = ["n", 1]\ninternal = {internal}\n'
             turn = 1.0 + 2.0 * sign  # of the second, where the first turns by 1
             inertia = I_A + (0.5 + 0.2 * turn) ** 2 + 0.06 * turn**2
@@ -137,10 +149,13 @@ class Coupled(SceneTest):
                 ('[[gear]]\njoints = ["first", "secnd"]\nteeth = [1, 2]\n', "secnd"),
                 ('[[gear]]\njoints = ["first", "second"]\nteeth = [1, 2, 3]\n', "expected the numbers of two wheels, found 3"),
                 ('[[gear]]\njoints = ["first", "second"]\nteeth = [1, 0]\n', "teeth"),
+                ('[[gear]]\njoints = ["first", "across"]\nteeth = [1, 2]\n', "axes of two wheels must be parallel"),
+                ('[[coupler]]\njoints = ["first", "first"]\nratios = [1, 2]\n', "has 'first' twice"),
                 ('[[coupler]]\njoints = ["first"]\nratios = [1]\n', "expected two joints or more"),
                 ('[[coupler]]\njoints = ["first", "second"]\nratios = [1]\n', "found 2 joints and 1 ratios")]:
             with self.subTest(table):
-                self.write("scene.toml", HEAD + A + B + table)
+                across = pendulum("c", "across", 1.0, 0.2, (2, 0, 0), "[2, 0, 0]").replace("\naxis = [0, 1, 0]", "\naxis = [1, 0, 0]")
+                self.write("scene.toml", HEAD + A + B + across + table)
                 run = self.run_program("explain", "scene.toml")
                 self.assertEqual(run.returncode, EXIT_BAD_INPUT)
                 self.assertIn(message, run.stderr)

@@ -189,7 +189,8 @@ def linearize(scene: Source, at: Any = None, *, inputs: Sequence[str] = (), sett
         poles = scipy.linalg.eigvals(model.state_A, model.state_E)
         system = control.ss(*model.state_space(["tip.x", "rate of tip.x"]))
 
-    `inputs`: parameters of the scene that forces contain; their changes are inputs. `at` as for `spectrum`.
+    `inputs`: parameters that forces of the scene contain; changes of their values are inputs, those of their rates (of the
+    speed of a frame) are not. `at` as for `spectrum`.
 
     >>> et.linearize(scene, at=0.5).K
     array([[ 1. ,  0.5],
@@ -268,7 +269,7 @@ def _found(given: Given, found: Mapping[str, Any], key: str) -> Any:
     faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
     if faults and not found[key]:
         raise TraceError(f"{given.scene.path}: {'; '.join(faults)}")
-    _tell(given.warnings + faults)
+    _tell(given.warnings + faults + found.get("notes", []))
     return found[key]
 
 

@@ -80,21 +80,18 @@ py::object as_array(const NamedSamples& array) {
 /// Per name an array, and whether its first axis counts values.
 py::dict linearize(const Scene& scene, const Options& options, std::vector<double> values,
                    const std::vector<std::string>& inputs) {
-  std::vector<LinearModel> models, failed;
+  LinearModels models;
   std::vector<NamedSamples> found;
-  py::list faults;
   unlocked([&] {
     const TraceSetup setup = prepare_trace(scene, options, Purpose::operating_point);
     if (values.empty()) values.push_back(setup.options.from);
-    for (LinearModel& model : linear_models(setup, values, inputs))
-      (model.fault.empty() ? models : failed).push_back(std::move(model));
-    if (!models.empty()) found = arrays_of(setup, models, inputs);
+    models = linear_models(setup, values, inputs);
+    if (!models.found.empty()) found = arrays_of(setup, models.found, inputs);
   });
-  for (const LinearModel& model : failed) faults.append(py::make_tuple(model.p, model.fault));
   py::dict arrays;
   for (const NamedSamples& array : found)
     arrays[py::str(array.name)] = py::make_tuple(as_array(array), array.texts.empty());
-  return py::dict("arrays"_a = arrays, "faults"_a = faults);
+  return py::dict("arrays"_a = arrays, "faults"_a = models.faults, "notes"_a = models.notes);
 }
 
 /// Derivatives of the eigenvalues with respect to all parameters that are not derived, at one value of the

@@ -5,10 +5,12 @@
 //   E z' = G z + B du,   z = [q; q'], without the rates of those q that have no mass
 //
 // du are changes of parameters of the scene, the inputs: a force of the scene that is an expression of a
-// parameter becomes an input by its name.
+// parameter becomes an input by its name. F has the forces of their values, not those of their rates, as of
+// the speed of a frame.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eigentrail/continuation/trace_options.hpp"
@@ -18,7 +20,6 @@ namespace eigentrail {
 /// Motions about the equilibrium at p, in SI units; inputs are in the units of their parameters.
 struct LinearModel {
   double p = 0.0;                     ///< in the unit of the parameter
-  std::string fault = {};             ///< why there are no equations; empty if there are
   Vector x = {};                      ///< equilibrium, n
   Vector lambda = {};                 ///< multipliers of the constraints there, m
   Vector trimmed = {};                ///< values of the parameters that conditions determine, in their units
@@ -33,11 +34,19 @@ struct LinearModel {
   std::vector<Eigen::Index> rates{};  ///< the q whose rates are the last states, in their order
 };
 
+/// Models at several values, all with the same freedoms and states.
+struct LinearModels {
+  std::vector<LinearModel> found;
+  std::vector<std::pair<double, std::string>> faults;  ///< values without equations, and why
+  std::vector<std::string> notes;                      ///< sentences: of inputs without a force
+};
+
 /// The equations at values of the traced parameter, in its unit. Throws InputError for an input that is no
-/// parameter, is defined by others, moves a constraint, or exerts no force at any of the values, and for a
-/// model with more coordinates than fit into dense matrices (limits::matrix_rows).
-std::vector<LinearModel> linear_models(const TraceSetup& setup, const std::vector<double>& values,
-                                       const std::vector<std::string>& inputs);
+/// parameter, is defined by others or moves a constraint, for inputs of rotors and families of matrices, for
+/// a number of freedoms that is zero or differs, and for more coordinates than fit into dense matrices
+/// (limits::matrix_rows).
+LinearModels linear_models(const TraceSetup& setup, const std::vector<double>& values,
+                           const std::vector<std::string>& inputs);
 
 /// Arrays with names, one per value of the parameter, or texts that hold for all.
 struct NamedSamples {
@@ -51,7 +60,7 @@ struct NamedSamples {
 /// C_full, K_full and F_full in all coordinates, constraints (A), T, x, lambda, trimmed, state_E, state_A
 /// (G), state_B, the values of the parameter under its name, and the names: state_names of q, rate_names of
 /// the q whose rates follow them in z, coordinate_names with their units, constraint_names, trimmed_names,
-/// input_names. What is empty is left out. The models must have no faults.
+/// input_names. What is empty is left out.
 std::vector<NamedSamples> arrays_of(const TraceSetup& setup, const std::vector<LinearModel>& models,
                                     const std::vector<std::string>& inputs);
 

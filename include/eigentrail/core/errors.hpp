@@ -13,7 +13,12 @@ namespace eigentrail {
 struct SourceLocation {
   int line = 0;
   int column = 0;
+
+  friend bool operator==(const SourceLocation&, const SourceLocation&) = default;
 };
+
+/// The place of a value that replaces one of the scene, or is not there: an option of the caller.
+inline constexpr SourceLocation given_as_option{-1, 0};
 
 /// Bad input: a scene, file or command line that cannot be used. The message needs no additions:
 /// "file:line:column: key: what was expected, what was found, what to do".

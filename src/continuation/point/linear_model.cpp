@@ -1,44 +1,63 @@
 #include "eigentrail/continuation/linear_model.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "continuation/point/separate_points.hpp"
 #include "core/products.hpp"
 #include "eigentrail/core/errors.hpp"
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "modes/companion_form.hpp"
 
 namespace eigentrail {
 namespace {
 
+[[noreturn]] void refuse_input(const TraceSetup& setup, const std::string& name, const std::string& why) {
+  throw InputError(setup.scene.path + ": input '" + name + "': " + why);
+}
+
 int input_index(const TraceSetup& setup, const std::string& name) {
   const Parameters& parameters = setup.model->description().parameters;
   const std::optional<int> index = parameters.index(name);
   if (!index)
-    throw InputError(setup.scene.path + ": input '" + name + "': expected a parameter of the scene; " +
-                     suggestion(name, parameters.names()));
+    refuse_input(setup, name, "expected a parameter of the scene; " + suggestion(name, parameters.names()));
   if (parameters.at(name).definition)
-    throw InputError(setup.scene.path + ": input '" + name +
-                     "': is defined by other parameters; name one of those");
+    refuse_input(setup, name, "is defined by other parameters; name one of those");
+  if (setup.model->structure(setup.traced()).known_equilibrium)
+    refuse_input(setup, name, "a rotor, or a family of matrices, has no forces that could be inputs");
   return *index;
 }
 
-/// Change of the forces with a parameter, at rest in the equilibrium; n. Zero where it would change the
-/// equilibrium by no more than rounding does.
+/// The path along a parameter, at rest in the equilibrium. That of a trimmed one is among the multipliers.
+Path along_input(const TraceSetup& setup, int input, const Equilibrium& at, const Vector& parameters) {
+  Path path{Matrix::Zero(parameters.size(), 2), at.x, Matrix::Zero(at.lambda.size(), 2)};
+  path.parameters.col(0) = parameters;
+  path.parameters(input, 1) = 1.0;
+  path.lambda.col(0) = at.lambda;
+  Eigen::Index row = setup.model->n_constraints();
+  for (const Trim& trim : setup.model->description().trims)
+    path.lambda(row++, 1) = trim.parameter == input ? 1.0 : 0.0;
+  return path;
+}
+
+/// Change of the forces with the value of a parameter, n. Zero where it would change the equilibrium by no
+/// more than rounding does.
 Vector input_force(const TraceSetup& setup, const std::string& name, const Equilibrium& at,
                    const Vector& parameters) {
   const int input = input_index(setup, name);
-  Path path{Matrix::Zero(parameters.size(), 2), at.x, at.lambda};
-  path.parameters.col(0) = parameters;
-  path.parameters(input, 1) = 1.0;
   SteadyResidual change;
   EvaluationCounts counts = setup.model->new_counts();
-  if (const EvaluationFault fault = setup.model->residual(path, 1, change, counts))
-    throw InputError(setup.scene.path + ": input '" + name + "': " + fault.message());
+  if (const EvaluationFault fault =
+          setup.model->residual(along_input(setup, input, at, parameters), 1, change, counts))
+    refuse_input(setup, name, fault.message());
   for (Eigen::Index i = 0; i < setup.model->n_constraints(); ++i) {
     if (coefficient(change.constraint, i, 1) != 0.0)
-      throw InputError(setup.scene.path + ": input '" + name + "': changes the constraint " +
+      refuse_input(setup, name,
+                   "changes the constraint " +
                        setup.model->description().constraint_names[static_cast<std::size_t>(i)] +
                        "; an input changes forces only");
   }
@@ -82,30 +101,54 @@ LinearModel linear_model(const TraceSetup& setup, const PathPoint& point,
     model.F.col(j) = input_force(setup, inputs[static_cast<std::size_t>(j)], point.equilibrium,
                                  setup.parameters_at(point.p));
   model.Fq = transposed_product(model.T, model.F);
-  CompanionForm<Matrix> form(model.Mq, model.Cq, model.Kq);
-  model.E = std::move(form.b);
-  model.G = std::move(form.a);
-  model.rates = std::move(form.with_mass);
-  model.B = Matrix::Zero(model.E.rows(), count);
-  model.B.bottomRows(model.Fq.rows()) = model.Fq;
   return model;
 }
 
-void require_forces(const TraceSetup& setup, const std::vector<LinearModel>& models,
-                    const std::vector<std::string>& inputs) {
-  for (std::size_t j = 0; j < inputs.size(); ++j) {
-    double largest = 0.0;
-    bool known = false;
-    for (const LinearModel& model : models) {
-      if (!model.fault.empty()) continue;
-      known = true;
-      largest = std::max(largest, model.F.col(static_cast<Eigen::Index>(j)).cwiseAbs().maxCoeff());
-    }
-    if (known && largest == 0.0)
-      throw InputError(setup.scene.path + ": input '" + inputs[j] +
-                       "': exerts no force at the equilibrium; expected a parameter that a force, moment or "
-                       "motor of the scene contains");
+/// Sets the equations of first order, with the same states at all values. Throws InputError where the number
+/// of freedoms differs.
+void set_states(const TraceSetup& setup, std::vector<LinearModel>& models) {
+  if (models.empty()) return;
+  if (models.front().Mq.rows() == 0)
+    throw InputError(setup.scene.path + ": has no freedoms: its constraints hold every motion");
+  Matrix masses = Matrix::Zero(models.front().Mq.rows(), models.front().Mq.cols());
+  for (const LinearModel& model : models) {
+    if (model.Mq.rows() != masses.rows())
+      throw InputError(setup.scene.path + ": has " + std::to_string(masses.rows()) + " freedoms at " +
+                       setup.options.parameter + " = " + exact_text(models.front().p) + " and " +
+                       std::to_string(model.Mq.rows()) + " at " + exact_text(model.p) +
+                       "; linearize these values one by one");
+    masses = masses.cwiseMax(model.Mq.cwiseAbs());
   }
+  const std::vector<Eigen::Index> rates = coordinates_with_mass(masses);
+  for (LinearModel& model : models) {
+    CompanionForm<Matrix> form(model.Mq, model.Cq, model.Kq, rates);
+    model.E = std::move(form.b);
+    model.G = std::move(form.a);
+    model.B = Matrix::Zero(model.E.rows(), model.Fq.cols());
+    model.B.bottomRows(model.Fq.rows()) = model.Fq;
+    model.rates = rates;
+  }
+}
+
+void note_inputs_without_force(const std::vector<std::string>& inputs, LinearModels& models) {
+  for (std::size_t j = 0; j < inputs.size() && !models.found.empty(); ++j) {
+    const auto is_zero = [j](const LinearModel& model) {
+      return model.F.col(static_cast<Eigen::Index>(j)).isZero(0.0);
+    };
+    if (std::ranges::all_of(models.found, is_zero))
+      models.notes.push_back("input '" + inputs[j] + "' exerts no force at " +
+                             (models.found.size() == 1 ? "this equilibrium" : "these equilibria"));
+  }
+}
+
+/// Whether a name means something else, here or to what reads such files.
+bool is_name_of_array(const std::string& name) {
+  static const std::set<std::string> others = {
+      "A_error", "T",     "constraints", "derivative_order", "eigentrail", "frame", "lambda",
+      "names",   "order", "states",      "trimmed",          "units",      "x"};
+  const bool is_matrix = name.size() == 1 && std::isupper(static_cast<unsigned char>(name[0])) != 0;
+  return is_matrix || others.contains(name) || name.starts_with("state_") || name.ends_with("_full") ||
+         name.ends_with("_names") || name.ends_with("_units");
 }
 
 /// Names of the coordinates q: those of the scene, where these are all of them.
@@ -118,25 +161,29 @@ std::vector<std::string> names_of(const TraceSetup& setup, const LinearModel& mo
 
 }  // namespace
 
-std::vector<LinearModel> linear_models(const TraceSetup& setup, const std::vector<double>& values,
-                                       const std::vector<std::string>& inputs) {
+LinearModels linear_models(const TraceSetup& setup, const std::vector<double>& values,
+                           const std::vector<std::string>& inputs) {
   check_within_samples(setup, values);
   if (setup.model->n_coordinates() > limits::matrix_rows)
     throw InputError(setup.scene.path + ": has " + std::to_string(setup.model->n_coordinates()) +
                      " coordinates, and at most " + std::to_string(limits::matrix_rows) +
                      " fit into whole matrices; eigentrail trace --save-reduced writes projected ones");
+  for (auto name = inputs.begin(); name != inputs.end(); ++name) {
+    if (std::find(inputs.begin(), name, *name) != name) refuse_input(setup, *name, "is given twice");
+  }
   const PathProblem problem = problem_along(*setup.model, setup.options.parameter);
-  std::vector<LinearModel> models;
+  LinearModels models;
   Matrix frame;
   for_each_point(problem, values, frame, [&](const PathPoint& point) {
     if (point.status != PointStatus::computed) {
-      models.push_back({point.p, point.message});
+      models.faults.emplace_back(point.p, point.message);
       return;
     }
-    models.push_back(linear_model(setup, point, inputs));
-    if (frame.size() == 0) frame = models.back().T;
+    models.found.push_back(linear_model(setup, point, inputs));
+    if (frame.size() == 0) frame = models.found.back().T;
   });
-  require_forces(setup, models, inputs);
+  note_inputs_without_force(inputs, models);
+  set_states(setup, models.found);
   return models;
 }
 
@@ -169,8 +216,7 @@ std::vector<NamedSamples> arrays_of(const TraceSetup& setup, const std::vector<L
   add("x", 1, &LinearModel::x);
   add("lambda", 1, &LinearModel::lambda);
   add("trimmed", 1, &LinearModel::trimmed);
-  const auto is_taken = [&](const NamedSamples& array) { return array.name == parameter; };
-  add(std::ranges::any_of(arrays, is_taken) ? "parameter" : parameter, 0,
+  add(is_name_of_array(parameter) ? "parameter" : parameter, 0,
       [](const LinearModel& model) { return Matrix::Constant(1, 1, model.p); });
   const std::vector<std::string> states = names_of(setup, models.front());
   std::vector<std::string> rates, trimmed;

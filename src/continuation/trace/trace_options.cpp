@@ -164,7 +164,8 @@ Table table_of(const std::string& key, const std::string& text) {
                      "\": expected keys with values, such as \"count = 12, band = ['0.05 Hz', '3 Hz']\"");
   }
   Table table = std::get<Table>(parsed.entries.front().second.data);
-  for (auto& [name, value] : table.entries) value.where = {};  // no place in the scene file
+  table.where = given_as_option;
+  for (auto& [name, value] : table.entries) value.where = given_as_option;
   return table;
 }
 
@@ -190,7 +191,7 @@ Table merged_table(const Scene& scene, const OptionTexts& overrides) {
   }
   for (const auto& option : overrides) {
     const std::string& text = option.second;
-    Value value{text, {}};
+    Value value{text, given_as_option};
     if (const auto number = parsed_number<double>(text)) value.data = *number;
     if (text == "true" || text == "false") value.data = text == "true";
     const bool is_choice = option.first == "modes" && text.find('=') != std::string::npos;
