@@ -26,6 +26,10 @@ ComplexMatrix whole_Q(const Eigen::ColPivHouseholderQR<ComplexMatrix>& qr) {
   return qr.householderQ();
 }
 
+ComplexMatrix least_squares(const ComplexMatrix& A, const ComplexMatrix& B) {
+  return A.householderQr().solve(B);
+}
+
 Matrix orthonormal(const Matrix& A) {
   return columns_of_Q(Eigen::HouseholderQR<Matrix>(A), A.cols());
 }

@@ -18,6 +18,9 @@ Matrix whole_Q(const Eigen::HouseholderQR<Matrix>& qr);
 Matrix whole_Q(const Eigen::ColPivHouseholderQR<Matrix>& qr);
 ComplexMatrix whole_Q(const Eigen::ColPivHouseholderQR<ComplexMatrix>& qr);
 
+/// X with the least |A X - B|, where the columns of A are independent.
+ComplexMatrix least_squares(const ComplexMatrix& A, const ComplexMatrix& B);
+
 /// An orthonormal basis of the columns of A if these are independent: the columns of Q that are as many.
 Matrix orthonormal(const Matrix& A);
 ComplexMatrix orthonormal(const ComplexMatrix& A);

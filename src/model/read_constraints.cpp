@@ -387,8 +387,9 @@ const std::vector<ConstraintKind>& constraint_kinds() {
         {"ratios", "list", "a number for each"}},
        read_coupler},
       {"gear",
-       "two wheels that mesh: they turn in opposite directions, by angles as the inverse of their teeth",
-       {{"joints", "two joints", "of the wheels with what carries both, about parallel axes"},
+       "two wheels that mesh: they turn in opposite directions, by angles in the inverse ratio of their "
+       "teeth",
+       {{"joints", "two joints", "each joins a wheel to what carries both; their axes are parallel"},
         {"teeth", "list", "of each wheel; or their radii"},
         {"internal", "true or false", "whether the second wheel is a ring around the first", "false"}},
        read_gear}};

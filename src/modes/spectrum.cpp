@@ -438,11 +438,7 @@ InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Com
   InvariantPair pair;
   pair.is_real = is_real;
   pair.Z = X.topRows(n);
-  // (b X) Lambda = a X in the least-squares sense.
-  const ComplexMatrix right = complex_b * X, basis = orthonormal(right);
-  const Eigen::PartialPivLU<ComplexMatrix> coordinates(ComplexMatrix(basis.adjoint() * right));
-  pair.Lambda =
-      scaling.gamma * coordinates.solve(ComplexMatrix(basis.adjoint() * ComplexMatrix(complex_a * X)));
+  pair.Lambda = scaling.gamma * least_squares(complex_b * X, complex_a * X);
   if (is_real) {
     // A real pencil and a real shift give a real subspace; the QR basis of it is real.
     pair.Z.imag().setZero();

@@ -1,7 +1,9 @@
 #include "eigentrail/stability/boundary_options.hpp"
 #include "eigentrail/projection/project.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
