@@ -60,6 +60,15 @@ def trace_one(chance, file):
         et.trace(CROSSING, threads=2)
 
 
+def import_everything(file):
+    """Uses all that the traces use, once: Ctrl-C within an import may leave CPython's lock on the module, for which others wait."""
+    for number in range(60):
+        try:
+            trace_one(random.Random(f"import {number}"), file)
+        except OUTCOMES:
+            pass
+
+
 class Allocation(ctypes.Structure):
     """struct mallinfo2 of glibc."""
     _fields_ = [(name, ctypes.c_size_t) for name in
@@ -139,6 +148,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="eigentrail-") as folder:
         file = os.path.join(folder, "crossing.h5")
         et.trace(CROSSING).eigentrail.save(file)
+        import_everything(file)
         soak, levels = Soak(options.seed, file), []
         for _ in range(4):
             soak.run(options.traces // 4, options.threads)
