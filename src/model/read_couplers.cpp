@@ -31,11 +31,12 @@ Expression slide_at_guess(const Draft& draft, const HingeAngle& joint) {
 }
 
 /// ratios . motions = 0, of motions from the starting guess.
-std::vector<ConstraintRow> couple(Draft& draft, TableReader& table, const std::vector<Expression>& ratios) {
+std::vector<ConstraintRow> couple(Draft& draft, const TableReader& table,
+                                  const std::vector<std::string>& joints,
+                                  const std::vector<Expression>& ratios) {
   const std::map<std::string, CoupledMotion> known = named_motions(draft);
   std::vector<std::string> names;
   for (const auto& [name, motion] : known) names.push_back(name);
-  const std::vector<std::string> joints = table.texts("joints");
   if (joints.size() < 2 || joints.size() != ratios.size())
     table.fail("joints", "expected two joints or more, and a ratio for each; found " +
                              std::to_string(joints.size()) + " joints and " + std::to_string(ratios.size()) +
@@ -76,7 +77,7 @@ double common_sense(const Draft& draft, const TableReader& table, const JointMot
 std::vector<ConstraintRow> read_coupler(Draft& draft, TableReader& table, JointMotions&) {
   const std::vector<Expression> ratios = table.list("ratios", any_unit);
   for (const Expression& ratio : ratios) draft.check_range(table, "ratios", ratio, Range::any);
-  return couple(draft, table, ratios);
+  return couple(draft, table, table.texts("joints"), ratios);
 }
 
 std::vector<ConstraintRow> read_gear(Draft& draft, TableReader& table, JointMotions&) {
@@ -95,7 +96,7 @@ std::vector<ConstraintRow> read_gear(Draft& draft, TableReader& table, JointMoti
   const double sense = common_sense(draft, table, draft.joints.at(joints[0]), draft.joints.at(joints[1]));
   const bool internal = table.has("internal") && table.flag("internal");
   teeth[1] = (internal ? -sense : sense) * teeth[1];
-  return couple(draft, table, teeth);
+  return couple(draft, table, joints, teeth);
 }
 
 }  // namespace eigentrail

@@ -6,7 +6,7 @@ import warnings
 import eigentrail as et
 import numpy as np
 
-from program import PUSHED_PENDULUM, SCENES, ProgramTest
+from program import BLADE, PUSHED_PENDULUM, SCENES, ProgramTest
 
 G = 9.81
 
@@ -89,7 +89,8 @@ class Linearize(ProgramTest):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             self.assertEqual(et.linearize(PUSHED_PENDULUM, [0.5, 1.1]).p, [0.5])
-        self.assertEqual([warning.filename for warning in told], [__file__])
+            et.sweep(BLADE, {"drag": [1.0]}, options={"max_nodes": 2}, points=2)
+        self.assertEqual([warning.filename for warning in told], [__file__, __file__])
 
 
 if __name__ == "__main__":

@@ -4,13 +4,12 @@ import glob
 import os
 import pathlib
 import tempfile
-import warnings
 from collections.abc import Sequence
 from typing import Any, Union
 
 from .checked import checked
 from .engine import engine
-from .errors import SceneError
+from .errors import SceneError, tell
 from .files import write
 
 Files = Union[str, os.PathLike[str], Sequence[Union[str, os.PathLike[str]]]]
@@ -73,8 +72,7 @@ def from_files(format: str, files: Files, **options: Any) -> Imported:
             raise SceneError(f"{format}: gives a scene with a table of stations, no matrices; use the program, "
                              f"eigentrail import {format} FILES -o FOLDER, and give the scene to et.trace")
         image = matrices.read_bytes()
-    for warning in found["warnings"]:
-        warnings.warn(warning, stacklevel=3)
+    tell(found["warnings"])
     return Imported(found, text, image)
 
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import sys
-import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -13,7 +10,7 @@ import numpy as np
 from . import files
 from .checked import checked
 from .engine import engine
-from .errors import SceneError, TraceError
+from .errors import SceneError, TraceError, tell
 from .given import Attached, Given, Source, give, number, option_text, within
 from .later import pandas, xarray
 from .linear import LinearModel
@@ -57,7 +54,7 @@ def trace(scene: Source, *, tolerance: Optional[float] = None, modes: Any = None
     """
     run = trace_file(scene, tolerance=tolerance, modes=modes, certify=certify, settings=settings, options=options,
                      events=events, threads=threads, progress=progress, **parameters)
-    _tell(run.remarks)
+    tell(run.remarks)
     return run.loci()
 
 
@@ -214,7 +211,7 @@ def explain(scene: Source, *, sensitivity: bool = False, settings: Optional[Mapp
     """
     given = give(explain, scene, {**(settings or {}), **parameters})
     text = engine().explain(given.scene, _trace_options(given, options, single=True), sensitivity)
-    _tell(given.warnings)
+    tell(given.warnings)
     return Explanation(text)
 
 
@@ -269,7 +266,7 @@ def _found(given: Given, found: Mapping[str, Any], key: str) -> Any:
     faults = [f"{value:g}: {fault}" for value, fault in found["faults"]]
     if faults and not found[key]:
         raise TraceError(f"{given.scene.path}: {'; '.join(faults)}")
-    _tell(given.warnings + faults + found.get("notes", []))
+    tell(given.warnings + faults + found.get("notes", []))
     return found[key]
 
 
@@ -301,14 +298,5 @@ def _computed(given: Given, progress: Progress, compute: Callable[[Any], Any]) -
 
 def _result(given: Given, progress: Progress, compute: Callable[[Any], Any]) -> xarray.Dataset:
     outcome, remarks = _computed(given, progress, compute)
-    _tell(remarks + [outcome.message] * bool(outcome.message))
+    tell(remarks + [outcome.message] * bool(outcome.message))
     return files.from_bytes(outcome.file)
-
-
-def _tell(remarks: Iterable[str]) -> None:
-    """Warns where the user has called the package."""
-    frame, level = sys._getframe(), 1
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(os.path.dirname(__file__)):
-        frame, level = frame.f_back, level + 1
-    for remark in remarks:
-        warnings.warn(remark, stacklevel=level)

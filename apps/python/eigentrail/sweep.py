@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import os
-import warnings
 from collections import UserDict
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -13,7 +12,7 @@ from typing import Any, Optional
 import numpy as np
 
 from .checked import checked
-from .errors import SceneError, TraceError
+from .errors import SceneError, TraceError, tell
 from .given import Source, within
 from .later import xarray
 from .progress import Progress, bar
@@ -60,8 +59,7 @@ def sweep(scene: Source, over: Mapping[str, Sequence[Any]], *, points: Any = 201
         raise SceneError(f"{both[0]}: is swept, and has a value of its own; give one of them")
     places = list(itertools.product(*values.values()))
     runs = _run_all(scene, names, places, how, jobs or os.cpu_count() or 1, progress)
-    for remark in dict.fromkeys(remark for run in runs for remark in run.remarks):
-        warnings.warn(remark, stacklevel=2)
+    tell(dict.fromkeys(remark for run in runs for remark in run.remarks))
     return _together(names, values, places, runs, points)
 
 
