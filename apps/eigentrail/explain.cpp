@@ -16,10 +16,10 @@
 #include "eigentrail/continuation/sensitivities.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/model/build.hpp"
+#include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/loci_writer.hpp"
 #include "output.hpp"
-#include "projection_info.hpp"
 #include "scene_in_words.hpp"
 
 namespace eigentrail::app {
@@ -237,6 +237,50 @@ void print_structure(std::FILE* to, const Structure& structure, bool has_constra
   print_section(to, "structure of the pencil", rows);
 }
 
+/// Why a model takes its route.
+std::string reason_of(const Route& route) {
+  if (!route.work)
+    return "the dense engine holds " + std::to_string(limits::matrix_rows) + " coordinates at most";
+  const auto billions = [](double operations) { return rounded(1e-9 * operations, 2) + " billion"; };
+  return billions(route.work->projected) + " operations, " + billions(route.work->dense) +
+         " with all freedoms; taken from a ratio of " + rounded(worth_projecting, 3) + " on";
+}
+
+/// The route of a large model, before anything is factored.
+void print_route(std::FILE* to, const Route& route, const ProjectionEstimate& estimate,
+                 const TraceOptions& options) {
+  const auto megabytes = [](double bytes) { return rounded(bytes / 1e6, 3) + " MB"; };
+  const std::string followed = in_words(options.modes);
+  const bool scene = estimate.coordinates > 0;
+  std::string model = std::to_string(estimate.freedoms) + " freedoms";
+  if (scene) {
+    model += ": " + std::to_string(estimate.coordinates) + " coordinates, " +
+             std::to_string(estimate.coordinates - estimate.freedoms) + " constraints";
+  }
+  model += ", " + std::to_string(estimate.nonzeros) +
+           (scene ? " nonzeros in M, C, K and A together" : " nonzeros in M, C and K together");
+  std::vector<std::vector<std::string>> rows{
+      {"  model", model},
+      {"  chosen", "the projection: " + reason_of(route)},
+      {"  projection", "onto the vectors of " + followed + (estimate.two_sided ? ", right and left" : "") +
+                           ", at both ends of the range of " + options.parameter +
+                           " and where residuals are largest"},
+      {"  factorization", estimate.method + " at each, " + megabytes(estimate.factor_bytes) + ", " +
+                              rounded(estimate.factor_operations / 1e9, 3) + " Gflop"},
+      {"  memory", megabytes(estimate.total_bytes) + " with the vectors"}};
+  if (scene)
+    rows.push_back({"  equilibrium",
+                    estimate.moves ? "of all coordinates, followed: such a factorization for each correction"
+                                   : "of all coordinates, solved once"});
+  rows.push_back(
+      {"  trace", scene ? "of the scene on the motions of the projection, some tens, by the dense engine"
+                        : "of the projected family, with some tens of coordinates, by the dense engine"});
+  rows.push_back({"  error", "of the projection below " + rounded(estimate.target, 3) +
+                                 " of each eigenvalue; the tolerance " + exact_text(options.tolerance) +
+                                 " is that of the large model"});
+  print_section(to, "route", rows);
+}
+
 /// The method that computes the modes, and its cost relative to one LU per mode.
 std::string describe_route(const Structure& structure, const ModeWork& work) {
   const ModeRoute route = cheapest_route(structure, work);
@@ -302,7 +346,7 @@ Route explain(std::FILE* to, const TraceSetup& setup, const OptionTexts& option_
   const Route route = route_of(*model, options);
   if (route.is_projected) {
     print_model(to, *model, traced);
-    print_route(route, estimate_projection(*model, options, solver), options, to);
+    print_route(to, route, estimate_projection(*model, options, solver), options);
     if (sensitivity) explain_sensitivity(to, scene, option_texts);
     return route;
   }

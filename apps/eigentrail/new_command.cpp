@@ -45,8 +45,7 @@ void add_new(CLI::App& program, int& exit_code) {
   command
       ->add_option("--starter", arguments->starter,
                    "blade: bodies, hinges and a rotating frame; pendulum: a point on a rod; rotor: a shaft "
-                   "with discs in "
-                   "bearings; matrices: M, C, K")
+                   "with discs in bearings; matrices: M, C, K")
       ->capture_default_str();
   command->footer("Examples:\n  eigentrail new blade.toml\n  eigentrail new flutter.toml --starter matrices");
 }

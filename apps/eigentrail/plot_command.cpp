@@ -165,8 +165,7 @@ int run_plot(PlotArguments& arguments) {
   }
   throw InputError(
       "plot draws with Python: expected the Python for which eigentrail was built, with numpy, pandas, "
-      "xarray, h5py "
-      "and matplotlib (apt install python3-matplotlib python3-xarray python3-h5py); "
+      "xarray, h5py and matplotlib (apt install python3-matplotlib python3-xarray python3-h5py); "
       "EIGENTRAIL_PYTHON=/path/to/python3 names one; eigentrail report draws without it");
 }
 

@@ -94,8 +94,7 @@ EffectHelp matrix_family_help() {
        {"state_names", "texts", "names of the rows, each once", "x1, x2, ..."},
        {"file", "text",
         "HDF5 file with datasets /M/0, /K/0, /K/1, ... or /E/0, /A/0, ..., dense or sparse, in place of the "
-        "keys "
-        "above",
+        "keys above",
         "none"},
        {"factors", "table of expressions",
         "factors of the file's matrices with names: { bearing = \"k\" } for /K/bearing", "none"}}};

@@ -60,8 +60,7 @@ std::vector<std::string> blades_in_words(const std::optional<BladedRotor>& rotor
               "'; one of them is " + joined(rotor->of_blade, ", ", printable) +
               ". What stands: " + joined(rotor->support, ", ", printable) + ".",
           "In multiblade coordinates (collective, cosine, sine, ...) all coefficients are constant; s is "
-          "seen from the "
-          "frame that stands."};
+          "seen from the frame that stands."};
 }
 
 std::string equilibrium(const Structure& structure, const std::string& parameter) {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
+#include "eigentrail/model/projection.hpp"
 #include "eigentrail/modes/whirl.hpp"
 #include "output.hpp"
-#include "projection_info.hpp"
 #include "ranges.hpp"
 #include "scene/frequency_unit.hpp"
 
@@ -41,6 +42,21 @@ void print_data_errors(const DataErrors& errors, const RecordedPath& path, doubl
   } else {
     std::printf(", %s\n", text("from their digits", errors.digits).c_str());
   }
+}
+
+/// Prints how a large model was projected, and its error.
+void print_projection(const Projection& projection, const std::string& parameter) {
+  std::vector<double> places = projection.sampled_at;
+  std::sort(places.begin(), places.end());
+  const std::string list = joined(places, ", ", [](double p) { return rounded(p, 5); });
+  std::printf(
+      "  projected from %lld freedoms: %d sparse factorizations by %s, %.3g MB, %ld solutions;\n"
+      "        modes of the large model at %s = %s;\n"
+      "        error of the projection %.1e (asked for %.1e) where it is worst, at %s = %s\n",
+      static_cast<long long>(projection.freedoms), projection.factorizations, projection.method.c_str(),
+      static_cast<double>(projection.peak_bytes) / 1e6, projection.solutions, parameter.c_str(), list.c_str(),
+      projection.error, projection.target, parameter.c_str(), rounded(projection.error_at, 5).c_str());
+  for (const std::string& note : projection.notes) std::printf("        %s\n", note.c_str());
 }
 
 void print_heading(const TraceSummary& trace) {
@@ -197,6 +213,64 @@ std::string identity_text(const TraceSummary& trace) {
          " of " + std::to_string(result.mode_steps) + " mode steps; info and the file say where";
 }
 
+/// Prints what was computed, how often, and how long it took.
+void print_work(const TraceResult& result) {
+  const RunCounts& counts = result.counts;
+  const double per_mode_and_step =
+      static_cast<double>(counts.modes.factorizations) / static_cast<double>(std::max(result.mode_steps, 1L));
+  const Rejections& r = result.rejections;
+  std::printf("  work  %d points, %d steps tried again", result.nodes, r.total());
+  if (r.total() > 0) {
+    std::printf(" (%d inaccurate, %d uncertified, %d no equilibrium, %d mode lost, %d mismatch, %d merged)",
+                r.inaccurate, r.uncertified, r.no_equilibrium, r.mode_lost, r.mismatch, r.merged);
+  }
+  const Regroupings& g = result.regroupings;
+  if (g.joined + g.charts + g.planes + g.repaired > 0) {
+    std::printf(
+        "\n        %d blocks of close modes formed, %d taken apart; %d changes between s and 1/s; %d changes "
+        "of the path's coordinate; %d missing modes added",
+        g.joined, g.parted, g.charts, g.planes, g.repaired);
+  }
+  std::printf(
+      "\n        %s LU per mode and step, %llu for the certificate, %llu for special points, %llu KINSOL "
+      "iterations, %llu KKT factorizations\n",
+      rounded(per_mode_and_step, 3).c_str(),
+      static_cast<unsigned long long>(counts.certificate_factorizations),
+      static_cast<unsigned long long>(counts.event_factorizations),
+      static_cast<unsigned long long>(counts.equilibrium_iterations),
+      static_cast<unsigned long long>(counts.equilibrium_factorizations));
+  if (counts.modes.modal_bases + counts.certificate_bases > 0) {
+    std::printf(
+        "        all modes at once: %llu bases, %llu solutions with them, %llu bases of the certificate\n",
+        static_cast<unsigned long long>(counts.modes.modal_bases),
+        static_cast<unsigned long long>(counts.modes.modal_solves),
+        static_cast<unsigned long long>(counts.certificate_bases));
+  }
+  std::string shares;
+  for (const auto& [what, seconds] : {std::pair("equilibrium", counts.equilibrium_seconds),
+                                      {"reduction", counts.reduction_seconds},
+                                      {"modes", counts.modes_seconds},
+                                      {"differentiation", counts.differentiation_seconds},
+                                      {"certificate", counts.certificate_seconds},
+                                      {"matching", counts.matching_seconds},
+                                      {"events", counts.events_seconds},
+                                      {"output", counts.output_seconds}})
+    shares += (shares.empty() ? "" : ", ") + std::string(what) + " " +
+              percent(result.seconds > 0.0 ? seconds / result.seconds : 0.0, 2);
+  std::printf("  time  %s s: %s\n", rounded(result.seconds, 3).c_str(), shares.c_str());
+}
+
+void print_effects(const Model& model, const EvaluationCounts& counts) {
+  std::string line;
+  for (std::size_t i = 0; i < model.description().effects.size(); ++i) {
+    const std::uint64_t evaluations = counts.residual[i] + counts.linearization[i];
+    if (evaluations == 0) continue;
+    line +=
+        (line.empty() ? "" : ", ") + model.description().effects[i].name + " " + std::to_string(evaluations);
+  }
+  std::printf("  evaluations  %s\n", line.c_str());
+}
+
 }  // namespace
 
 void print_summary(const TraceSummary& trace, bool verbose) {
@@ -213,7 +287,9 @@ void print_summary(const TraceSummary& trace, bool verbose) {
   print_ranges(trace.ranges, options.parameter);
   std::printf("  work  %d points, %s s; %s\n", trace.result.nodes, rounded(trace.result.seconds, 3).c_str(),
               identity_text(trace).c_str());
-  if (verbose) print_figures_of_work(trace);
+  if (!verbose) return;
+  print_work(trace.result);
+  print_effects(*trace.setup.model, trace.result.counts.evaluations);
 }
 
 }  // namespace eigentrail::app

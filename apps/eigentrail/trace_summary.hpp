@@ -24,7 +24,4 @@ struct TraceSummary {
 /// and the work in one line; with `verbose`, all its figures.
 void print_summary(const TraceSummary& trace, bool verbose);
 
-/// Prints what was computed, how often, and how long it took.
-void print_figures_of_work(const TraceSummary& trace);
-
 }  // namespace eigentrail::app
