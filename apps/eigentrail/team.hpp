@@ -11,6 +11,7 @@
 
 namespace eigentrail::app {
 
+/// This process alone, unless a function is overridden.
 class Team {
  public:
   virtual ~Team() = default;
@@ -20,10 +21,10 @@ class Team {
 
   /// Workers of all processes; `jobs` threads in each process, 0: one per core that the process has for
   /// itself.
-  virtual std::unique_ptr<Workers> workers(int jobs) = 0;
+  virtual std::unique_ptr<Workers> workers(int jobs) { return std::make_unique<Threads>(jobs); }
 
   /// Whether this process prints and writes; true in one process.
-  virtual bool leads() const = 0;
+  virtual bool leads() const { return true; }
 };
 
 /// Runs a command in the team of this process. If the processes were started by mpirun, an error in one of
@@ -32,6 +33,9 @@ class Team {
 int together(const std::function<int(Team&)>& command);
 
 /// Runs a command in this process alone.
-int alone(const std::function<int(Team&)>& command);
+inline int alone(const std::function<int(Team&)>& command) {
+  Team team;
+  return command(team);
+}
 
 }  // namespace eigentrail::app

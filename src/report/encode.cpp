@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/texts.hpp"
+
 namespace eigentrail {
 static_assert(std::endian::native == std::endian::little, "pages hold numbers lowest byte first");
 
@@ -21,17 +23,7 @@ std::string base64_of(std::span<const std::byte> bytes) {
 }
 
 std::string page_json(const Json& json) {
-  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string text;
-  text.reserve(plain.size());
-  for (const char c : plain) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
+  return replaced_all(json.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
 }
 
 }  // namespace eigentrail
