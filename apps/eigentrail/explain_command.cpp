@@ -3,7 +3,6 @@
 
 #include "commands.hpp"
 #include "explain.hpp"
-#include "factor_team.hpp"
 #include "scene_arguments.hpp"
 
 namespace eigentrail::app {

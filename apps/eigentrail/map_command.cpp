@@ -15,7 +15,6 @@
 #include "output.hpp"
 #include "scene_arguments.hpp"
 #include "shared_job.hpp"
-#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cctype>
 #include <optional>
-#include <utility>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"

@@ -9,7 +9,6 @@
 #include "eigentrail/continuation/operating_point.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
-#include "factor_team.hpp"
 #include "output.hpp"
 #include "output_choice.hpp"
 #include "scene_arguments.hpp"

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -21,7 +20,6 @@
 #include "commands.hpp"
 #include "core/archive.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/text.hpp"
 #include "launcher.hpp"
 #include "mpi_session.hpp"
 #include "output.hpp"

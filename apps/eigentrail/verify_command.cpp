@@ -4,7 +4,6 @@
 #include "commands.hpp"
 #include "core/texts.hpp"
 #include "eigentrail/accuracy/verify.hpp"
-#include "output.hpp"
 
 namespace eigentrail::app {
 namespace {

@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/core/text.hpp"
 #include "eigentrail/store/accuracy_writer.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
 #include "eigentrail/store/loci_file.hpp"

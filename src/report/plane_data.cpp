@@ -1,7 +1,6 @@
 // The data of boundary files, stability maps and accuracy studies.
 #include <span>
 
-#include "eigentrail/core/errors.hpp"
 #include "eigentrail/stability/boundary.hpp"
 #include "report/file_data.hpp"
 

@@ -5,8 +5,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include <functional>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>

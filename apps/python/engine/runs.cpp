@@ -6,7 +6,6 @@
 
 #include "core/texts.hpp"
 #include "eigentrail/accuracy/recorded_trace.hpp"
-#include "eigentrail/model/build.hpp"
 #include "eigentrail/model/function_family.hpp"
 #include "eigentrail/projection/project.hpp"
 #include "eigentrail/store/accuracy_writer.hpp"
