@@ -1,4 +1,3 @@
-"use strict";
 // Work-precision diagram: the largest error of every run over its wall time, one line per method.
 
 class AccuracyView {

@@ -1,4 +1,3 @@
-"use strict";
 // Critical speeds: where a frequency of the diagram equals n times the excitation, found on the dense output.
 
 /** The excitation frequency, rad/s, at any parameter value: cubic interpolation of the stored places. */

@@ -1,4 +1,3 @@
-"use strict";
 // Evaluates eigenvalues anywhere on a path. A place on the path is given by the distance from its beginning.
 
 /** Chebyshev-Lobatto points on [0, 1] and their barycentric weights. */

@@ -1,4 +1,3 @@
-"use strict";
 // Decodes the arrays of numbers in the page: base64, little-endian.
 
 function decodedBytes(text) {

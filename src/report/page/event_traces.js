@@ -1,4 +1,3 @@
-"use strict";
 // Marks of events and critical speeds, and all names inside of the charts.
 
 const MOST_NAMES = 14;  // events, or critical speeds, with names beside their marks

@@ -1,4 +1,3 @@
-"use strict";
 // Colours, marks and layout that all figures share.
 
 /** Okabe and Ito's colours without yellow, which is too light for lines on white. */

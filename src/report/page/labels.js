@@ -1,4 +1,3 @@
-"use strict";
 // Places texts in figures so that they lie neither on each other nor on marks. All lengths are in px, y downwards.
 
 const LABEL_HEIGHT = 13;

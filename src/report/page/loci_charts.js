@@ -1,4 +1,3 @@
-"use strict";
 // Draws the charts of a LociView: Campbell diagram and root locus.
 
 const MOST_DECADES = 4;  // of frequency on a logarithmic axis

@@ -1,4 +1,3 @@
-"use strict";
 // The controls above the charts of a LociView, and the key below them.
 
 function checkControl(label, checked, change, title) {

@@ -1,5 +1,3 @@
-"use strict";
-
 /** What moves most: "surge" of "surge 48 %, surge velocity 44 %". Other names stay as they are. */
 const mainMotion = (name) => name.replace(/^(.*?) \d+ %.*$/, "$1");
 

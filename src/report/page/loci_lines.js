@@ -1,4 +1,3 @@
-"use strict";
 // Converts curves to polylines, with so many points that they look smooth at the present zoom.
 
 const LARGEST_CORNER = 0.25;  // largest distance in px of the curve from a chord

@@ -1,4 +1,3 @@
-"use strict";
 // The traces that Plotly draws: Campbell diagram (frequency above, damping below) and root locus.
 
 const PARAMETER_COLOURS = 24;

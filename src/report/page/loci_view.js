@@ -1,4 +1,3 @@
-"use strict";
 // View of loci files with the same parameter: charts, the selected place and mode, mode shapes, events.
 
 const REACH = 22;  // distance in px from the pointer within which a line is selected

@@ -1,4 +1,3 @@
-"use strict";
 // View of stability over two parameters: maps with boundaries drawn on them.
 
 const MAP_QUANTITIES = { unstable: "growing modes", margin: "margin −max Re s, 1/s", damping_ratio: "least damping ratio" };

@@ -1,4 +1,3 @@
-"use strict";
 // Builds the page from the data in it.
 
 const PAPER = { width: "690px", height: "480px" };

@@ -1,4 +1,3 @@
-"use strict";
 // Animation of a mode shape: a stick figure that can be rotated, or bars if the scene has no points and bodies.
 
 const VIEWS = { "3D": [-0.6, 0.42], "x–y": [0, Math.PI / 2], "x–z": [0, 0], "y–z": [-Math.PI / 2, 0] };

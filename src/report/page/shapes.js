@@ -1,5 +1,3 @@
-"use strict";
-
 /** Mode shapes and equilibria of a file. The largest component of a shape is one. */
 class Shapes {
   constructor(data, modes) {

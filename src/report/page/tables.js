@@ -1,4 +1,3 @@
-"use strict";
 // Tables and lists beside the figures.
 
 function table(heads, rows, caption) {

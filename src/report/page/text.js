@@ -1,4 +1,3 @@
-"use strict";
 // Creates elements and texts, and groups items. Texts from files become text nodes, never markup.
 
 /** Creates an element with children. Attributes that are functions become listeners; "text" is the text content. */
