@@ -41,25 +41,10 @@ auto factoring(int (*run)(Arguments&, const SparseSolverMaker&)) {
   };
 }
 
-void add_new(CLI::App& program, int& exit_code);
-void add_suggest(CLI::App& program, int& exit_code);
-void add_import(CLI::App& program, int& exit_code);
-void add_trace(CLI::App& program, int& exit_code);
-void add_spectrum(CLI::App& program, int& exit_code);
-void add_linearize(CLI::App& program, int& exit_code);
-void add_eval(CLI::App& program, int& exit_code);
-void add_events(CLI::App& program, int& exit_code);
-void add_boundary(CLI::App& program, int& exit_code);
-void add_map(CLI::App& program, int& exit_code);
-void add_sweep(CLI::App& program, int& exit_code);
-void add_merge(CLI::App& program, int& exit_code);
-void add_info(CLI::App& program, int& exit_code);
-void add_explain(CLI::App& program, int& exit_code);
-void add_verify(CLI::App& program, int& exit_code);
-void add_accuracy(CLI::App& program, int& exit_code);
-void add_report(CLI::App& program, int& exit_code);
-void add_plot(CLI::App& program, int& exit_code);
-void add_export(CLI::App& program, int& exit_code);
-void add_reference(CLI::App& program, int& exit_code);
+/// A function that adds a command to the command line.
+using AddCommand = void(CLI::App& program, int& exit_code);
+AddCommand add_new, add_suggest, add_import, add_trace, add_spectrum, add_linearize, add_eval, add_events,
+    add_boundary, add_map, add_sweep, add_merge, add_info, add_explain, add_verify, add_accuracy, add_report,
+    add_plot, add_export, add_reference;
 
 }  // namespace eigentrail::app
