@@ -6,8 +6,8 @@
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
 #include "output_choice.hpp"
-#include "ranges.hpp"
 #include "scene/frequency_unit.hpp"
+#include "trace_summary.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {

@@ -8,10 +8,10 @@
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/store/loci_file.hpp"
 #include "output.hpp"
-#include "ranges.hpp"
 #include "records.hpp"
 #include "report/file_data.hpp"
 #include "samples_info.hpp"
+#include "trace_summary.hpp"
 
 namespace eigentrail::app {
 namespace {
