@@ -204,11 +204,6 @@ void read_list(const AccuracyArguments& arguments, const std::string& flag, std:
   }
 }
 
-void check_options(const StudyOptions& options) {
-  const std::vector<std::string> faults = find_faults(options);
-  if (!faults.empty()) throw InputError("--" + joined(faults, "; --"));
-}
-
 /// What the study depends on.
 SharedRun shared_run(const TraceSetup& setup, const AccuracyArguments& arguments) {
   SharedRun run{"accuracy", setup.scene.path, settings_of(setup.scene)};
@@ -237,7 +232,8 @@ int run_accuracy(AccuracyArguments& arguments, Team& team) {
   read_list(arguments, "--tolerances", options.tolerances);
   read_list(arguments, "--orders", options.orders);
   read_list(arguments, "--grids", options.grids);
-  check_options(options);
+  if (const auto faults = find_faults(options); !faults.empty())
+    throw InputError("--" + joined(faults, "; --"));
   TraceSetup setup = given_setup(arguments);
   project_if_large(setup.model, setup.options);
   SharedJob job{shared_run(setup, arguments), hdf5_format(accuracy_format, "work-precision study"), 1};

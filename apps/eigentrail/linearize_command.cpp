@@ -24,7 +24,6 @@
 #include "output.hpp"
 #include "output_choice.hpp"
 #include "scene_arguments.hpp"
-#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -306,10 +305,7 @@ void print_summary(const TraceSetup& setup, const std::vector<LinearModel>& mode
 int run_linearize(LinearizeArguments& arguments) {
   arguments.output.name_like(arguments.scene, "_linear", ".npz");
   const TraceSetup setup = given_setup(arguments, Purpose::operating_point);
-  const std::vector<double> values =
-      arguments.at.empty()
-          ? std::vector{setup.options.from}
-          : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
+  const std::vector<double> values = given_values(setup, arguments.at);
   check_array_output(arguments.output.path, values.size());
   for (std::string& input : arguments.inputs) input = trimmed(input);
   const LinearModels models = linear_models(setup, values, arguments.inputs);

@@ -127,6 +127,11 @@ TraceSetup given_setup(const SceneArguments& arguments, Purpose purpose) {
   return given_setup(arguments, read_scene(arguments.scene), purpose);
 }
 
+std::vector<double> given_values(const TraceSetup& setup, const std::vector<std::string>& at) {
+  if (at.empty()) return {setup.options.from};
+  return read_values("--at", at, setup.scene.parameters.at(setup.options.parameter));
+}
+
 void warn_of_unused(const Scene& scene, const Model& model) {
   for (const int parameter : model.description().unused_parameters)
     warn(unused_error(scene, parameter).what());

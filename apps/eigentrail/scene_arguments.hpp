@@ -65,6 +65,9 @@ Scene given_scene(const SceneArguments& arguments);
 TraceSetup given_setup(const SceneArguments& arguments, Purpose purpose = Purpose::trace);
 TraceSetup given_setup(const SceneArguments& arguments, Scene scene, Purpose purpose);
 
+/// The values of --at, in the unit of the traced parameter; without texts, where the trace begins.
+std::vector<double> given_values(const TraceSetup& setup, const std::vector<std::string>& at);
+
 /// Prints a warning on stderr.
 void warn(const std::string& message);
 

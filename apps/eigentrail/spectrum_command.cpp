@@ -12,7 +12,6 @@
 #include "output.hpp"
 #include "output_choice.hpp"
 #include "scene_arguments.hpp"
-#include "values.hpp"
 
 namespace eigentrail::app {
 namespace {
@@ -120,10 +119,7 @@ void print_for_people(const TraceSetup& setup, const std::vector<ShownPoint>& po
 
 int run_spectrum(const SpectrumArguments& arguments, const SparseSolverMaker& solver) {
   TraceSetup setup = given_setup(arguments, Purpose::operating_point);
-  const std::vector<double> values =
-      arguments.at.empty()
-          ? std::vector{setup.options.from}
-          : read_values("--at", arguments.at, setup.scene.parameters.at(setup.options.parameter));
+  const std::vector<double> values = given_values(setup, arguments.at);
   project_at_if_large(setup.model, setup.options, values, {.solver = solver});
   const std::vector<ShownPoint> points = with_errors(setup, operating_points(setup, values));
   const Records records = records_of(points);

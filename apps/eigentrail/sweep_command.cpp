@@ -159,13 +159,6 @@ std::string index_line(const SweepRow& row) {
   return csv_line(cells, "");
 }
 
-/// Throws InputError if `path` is not the loci file of this run.
-void require_run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
-                          const OptionTexts& options, const std::string& path) {
-  const TraceSetup setup = setup_of(scene, settings, options);
-  (void)read_saved_trace(path, setup.scene, setup.options);
-}
-
 /// Traces `scene` with `settings` (NAME=VALUE) and writes the loci file `path`. An error ends up in the row.
 /// May be called by several threads at once.
 SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
@@ -257,8 +250,9 @@ bool has_index(const std::string& index, const std::function<std::string(std::si
   const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
   if (!text.starts_with(index_header(runs.varied())) || lines != runs.size() + 1) return false;
   for (std::size_t run = 0; run < runs.size(); ++run) {
-    if (std::filesystem::exists(path(run)))
-      require_run_of_sweep(scene, runs.settings(run), options, path(run));
+    if (!std::filesystem::exists(path(run))) continue;
+    const TraceSetup setup = setup_of(scene, runs.settings(run), options);
+    (void)read_saved_trace(path(run), setup.scene, setup.options);
   }
   return true;
 }
