@@ -9,9 +9,9 @@ import numpy as np
 import pandas
 import xarray
 
-from . import files, ross, tables
+from . import files, ross
 from .figures import Figures
-from .selection import Selection, curve, mode_number
+from .selection import Selection, curve, mode_names, mode_number
 
 
 @xarray.register_dataset_accessor("eigentrail")
@@ -48,13 +48,33 @@ class Eigentrail(Figures):
 
     @property
     def events(self) -> pandas.DataFrame:
-        """Special points of a trace as a pandas DataFrame."""
-        return tables.events(self._of("loci"))
+        """Special points of a trace as a pandas DataFrame: one row per special point, in the order of the trace.
+
+        For a sampled family, `interval_from` and `interval_to` are the parameter values between which it lies as far as the
+        errors of the data tell; NaN for kinds that have no interval."""
+        loci, names = self._of("loci"), ["kind", "parameter", "eigenvalue", "modes", "direction", "value", "half_width", "node"]
+        index = pandas.Index(loci.event.values, name="event")
+        table = pandas.DataFrame({name: loci[f"event_{name}"].values for name in names}, index)
+        of_modes = mode_names(loci)[1]  # a mode without a name has its label, "mode 1"
+        table["modes"] = ["; ".join(of_modes[int(number) - 1] for number in text.split(";") if number) for text in table["modes"]]
+        table = table.rename(columns={"parameter": self.parameter})
+        if "event_interval" in loci:  # of a sampled family
+            table["interval_from"], table["interval_to"] = loci.event_interval.values.reshape(-1, 2).T
+        return table
 
     @property
     def stable_ranges(self) -> pandas.DataFrame:
-        """Ranges of a trace on which no mode grows, as a pandas DataFrame."""
-        return tables.stable_ranges(self._of("loci"))
+        """Ranges of a trace on which no mode grows, as a pandas DataFrame, in the order of the trace. Where `whole_model` is
+        False it holds for the followed modes only."""
+        loci = self._of("loci")
+        table = {"kind": loci.stable_kind.values, "from": loci.stable_from.values, "to": loci.stable_to.values}
+        for end, name in (("left", "from"), ("right", "to")):
+            for what in ("cause", "margin", "mode"):
+                table[f"{what}_{name}"] = loci[f"stable_{what}"].sel(end=end).values
+        for name in ("least_margin", "largest_margin", "largest_at"):
+            table[name] = loci[f"stable_{name}"].values
+        table["whole_model"] = loci.stable_whole.values == 1 if "stable_whole" in loci else False
+        return pandas.DataFrame(table, index=pandas.Index(loci.range.values, name="range"))
 
     def save(self, path: Union[str, os.PathLike[str]], overwrite: bool = False) -> None:
         """Writes the file that the program would write for this result. A file that exists is kept (FileExistsError), unless
