@@ -104,7 +104,8 @@ void reject_empty_numbers(CLI::App& program) {
   }
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv) try {
+  use_one_thread_within_blas();
   CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.",
                    "eigentrail");
   program.set_version_flag("--version", "eigentrail " + version());
@@ -128,11 +129,6 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "eigentrail: %s\n", printable(message_of(program, error)).c_str());
     return bad_input;
   }
-}
-
-int run_and_report(int argc, char** argv) try {
-  use_one_thread_within_blas();
-  return run(argc, argv);
 } catch (const std::exception& error) {
   return report_error(error);
 }
@@ -163,5 +159,5 @@ int after_printing(int exit_code) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is met as a full disk is
   eigentrail::app::occupy_standard_streams();
-  return eigentrail::app::after_printing(eigentrail::app::run_and_report(argc, argv));
+  return eigentrail::app::after_printing(eigentrail::app::run(argc, argv));
 }
