@@ -17,10 +17,10 @@ struct NewArguments {
 };
 
 int run_new(const NewArguments& arguments) {
-  std::vector<std::string> names;
-  for (const Starter& starter : starters) names.emplace_back(starter.name);
-  const auto chosen = std::find(names.begin(), names.end(), arguments.starter);
-  if (chosen == names.end()) {
+  const auto* const starter = std::ranges::find(starters, arguments.starter, &Starter::name);
+  if (starter == std::end(starters)) {
+    std::vector<std::string> names;
+    for (const Starter& known : starters) names.emplace_back(known.name);
     throw InputError("--starter: there is none called '" + arguments.starter + "'; " +
                      suggestion(arguments.starter, names));
   }
@@ -30,8 +30,7 @@ int run_new(const NewArguments& arguments) {
     throw InputError(path + ": exists already, and a scene is never replaced; give another name");
   check_new_output(path, false, {"scene", [](const std::string&) { return false; }});
   // The commands in the comments of a starter name its file.
-  const Starter& starter = starters[static_cast<std::size_t>(chosen - names.begin())];
-  write_durably(path, {replaced_all(std::string(starter.text), "@file@", path)});
+  write_durably(path, {replaced_all(std::string(starter->text), "@file@", path)});
   std::printf("wrote %s; next: eigentrail explain %s\n", path.c_str(), path.c_str());
   return done;
 }

@@ -40,9 +40,7 @@ constexpr std::array<PictureKind, 3> picture_kinds{
     {{".svg", "<?xml"}, {".pdf", "%PDF"}, {".png", "\x89PNG"}}};
 
 const PictureKind* kind_of(const std::string& path) {
-  const auto* const found =
-      std::find_if(picture_kinds.begin(), picture_kinds.end(),
-                   [ending = extension_of(path)](const PictureKind& kind) { return kind.ending == ending; });
+  const auto* const found = std::ranges::find(picture_kinds, extension_of(path), &PictureKind::ending);
   return found == picture_kinds.end() ? nullptr : found;
 }
 
