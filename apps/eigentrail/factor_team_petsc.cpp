@@ -243,26 +243,17 @@ class PetscSolver final : public SparseSolver {
 
 /// MPI and PETSc between their beginning and their end; PETSc ends first. Signals end the program as they do
 /// without PETSc, and options are not read from files.
-class Session {
+class Session : public MpiSession {
  public:
-  Session() {
+  Session() : MpiSession(MPI_THREAD_FUNNELED) {
     PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");
     PetscOptionsSetValue(nullptr, "-skip_petscrc", "true");
     check_petsc(PetscInitializeNoArguments());
     check_petsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
   ~Session() { PetscFinalize(); }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
-
-  bool leads() const { return rank_ == 0; }
-  int size() const { return size_; }
-
- private:
-  MpiSession mpi_{MPI_THREAD_FUNNELED};
-  int rank_ = 0, size_ = 1;
 };
 
 /// Ends the other processes when the first one comes to its end, also by an error.

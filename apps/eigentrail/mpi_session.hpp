@@ -25,13 +25,23 @@ class MpiSession {
     leave_out_the_network_on_one_machine();
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, threads, &provided);
-    if (provided >= threads) return;
-    MPI_Finalize();
-    throw std::runtime_error("MPI: expected one that several threads may call (MPI_THREAD_MULTIPLE)");
+    if (provided < threads) {
+      MPI_Finalize();
+      throw std::runtime_error("MPI: expected one that several threads may call (MPI_THREAD_MULTIPLE)");
+    }
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
   ~MpiSession() { MPI_Finalize(); }
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
+
+  /// Whether this is the first process.
+  bool leads() const { return rank_ == 0; }
+  int size() const { return size_; }
+
+ private:
+  int rank_ = 0, size_ = 1;
 };
 
 }  // namespace eigentrail::app

@@ -149,21 +149,15 @@ std::vector<std::jthread> computing_threads(std::size_t count, const Pieces& pie
 }
 
 /// This process among all.
-class Processes {
+class Processes : public MpiSession {
  public:
-  Processes() {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    MPI_Comm_size(MPI_COMM_WORLD, &size_);
-  }
-
-  bool leads() const { return rank_ == leader; }
-  int size() const { return size_; }
+  Processes() : MpiSession(MPI_THREAD_MULTIPLE) {}
 
   /// Waits until all processes have come here, each with its outcome. If one has failed, the first process
   /// throws the error of the first that has; the others end silently. Does nothing after that.
   void agree(const Outcome& own) {
     if (failed_) return;
-    const std::vector<std::int64_t> codes = all_numbers(own.code, size_);
+    const std::vector<std::int64_t> codes = all_numbers(own.code, size());
     const auto failed =
         std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != done; });
     if (failed == codes.end()) return;
@@ -175,7 +169,6 @@ class Processes {
   }
 
  private:
-  int rank_ = 0, size_ = 1;
   bool failed_ = false;
 };
 
@@ -299,7 +292,6 @@ class MpiTeam final : public Team {
   }
 
  private:
-  MpiSession session_{MPI_THREAD_MULTIPLE};
   Processes processes_;
   std::size_t cores_ = own_cores();
 };
