@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "eigentrail/core/text.hpp"
 #include "model/station_columns.hpp"
 
 namespace eigentrail {

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "core/blas.hpp"
-#include "eigentrail/core/text.hpp"
 #include "model/read_matrix_family.hpp"
 #include "model/read_multibody.hpp"
 #include "model/read_trim.hpp"

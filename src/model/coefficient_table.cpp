@@ -7,7 +7,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "eigentrail/scene/units.hpp"
 #include "model/beside_scene.hpp"
 #include "model/draft.hpp"
 #include "model/sample_interpolation.hpp"

@@ -2,7 +2,6 @@
 // or tabs. Lines that begin with # and empty lines do not count.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

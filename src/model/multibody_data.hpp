@@ -1,7 +1,6 @@
 // What a multibody scene consists of.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "model/trim.hpp"

@@ -1,7 +1,6 @@
 #include "model/read_air.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
 

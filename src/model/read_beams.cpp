@@ -1,8 +1,5 @@
 #include "model/read_beams.hpp"
 
-#include <algorithm>
-
-#include "eigentrail/core/text.hpp"
 #include "model/add_element.hpp"
 #include "model/beam_builder.hpp"
 

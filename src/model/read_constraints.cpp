@@ -1,5 +1,4 @@
 // All kinds of constraints: their keys, and the rows that they consist of.
-#include <algorithm>
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"

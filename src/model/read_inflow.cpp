@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "eigentrail/core/text.hpp"
 #include "model/beam_builder.hpp"
 
 namespace eigentrail {

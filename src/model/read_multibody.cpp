@@ -1,7 +1,6 @@
 #include "model/read_multibody.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/add_element.hpp"
 #include "model/beam_axis.hpp"

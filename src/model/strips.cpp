@@ -1,6 +1,5 @@
 #include "model/strips.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include "model/add_element.hpp"

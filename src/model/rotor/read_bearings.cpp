@@ -1,10 +1,8 @@
 // Reads the [[bearing]] tables of a rotor: bearings and seals on nodes, with constant coefficients,
 // expressions or a table over the speed.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "eigentrail/core/text.hpp"
 #include "model/coefficient_table.hpp"
 #include "model/rotor/rotor_draft.hpp"
 #include "model/whole_number.hpp"

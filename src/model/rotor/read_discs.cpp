@@ -1,5 +1,4 @@
 // Reads the [[disc]] tables: rigid discs on nodes of shafts.
-#include <cmath>
 #include <numbers>
 
 #include "core/texts.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/texts.hpp"
-#include "eigentrail/core/text.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "model/rotor/rotor_draft.hpp"
 

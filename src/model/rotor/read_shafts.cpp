@@ -1,10 +1,8 @@
 // Reads the [[shaft]] tables: geometry, material, rotation and damping.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/scene/limits.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
 namespace eigentrail {

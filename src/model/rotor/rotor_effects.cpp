@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "eigentrail/core/text.hpp"
 #include "model/affine_factor.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
