@@ -1,4 +1,4 @@
-#include "model/read_air.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,6 @@
 #include "model/add_element.hpp"
 #include "model/coefficient_table.hpp"
 #include "model/station_columns.hpp"
-#include "model/strips.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/read_beams.hpp"
+#include "model/readers.hpp"
 
 #include "model/add_element.hpp"
 #include "model/beam_builder.hpp"

@@ -2,8 +2,7 @@
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
-#include "model/draft.hpp"
-#include "model/read_couplers.hpp"
+#include "model/readers.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/read_inflow.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -1,3 +1,5 @@
+#include "model/model_readers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

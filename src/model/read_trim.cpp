@@ -1,4 +1,4 @@
-#include "model/read_trim.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -356,10 +356,6 @@ void read_trims(Draft& draft, const std::vector<InflowDraft>& inflows) {
   TrimReader reader(draft, inflows);
   draft.for_each_table(
       "trim", [&](TableReader& table, std::size_t) { draft.data.trims.push_back(reader.read(table)); });
-}
-
-InputError trim_error(const Scene& scene, const std::string& reason) {
-  return scene_error(scene, tables(scene, "trim").front()->where, "[[trim]]: not in " + reason);
 }
 
 std::vector<FieldHelp> trim_fields() {

@@ -1,4 +1,4 @@
-#include "model/strips.hpp"
+#include "model/readers.hpp"
 
 #include <numbers>
 

@@ -1,4 +1,4 @@
-#include "model/multiblade/read_bladed_rotor.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "model/rotor/read_rotor.hpp"
+#include "model/model_readers.hpp"
 
 #include <algorithm>
 
