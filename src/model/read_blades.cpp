@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "model/beam_axis.hpp"
 #include "model/beam_builder.hpp"
-#include "model/gauss_points.hpp"
 
 namespace eigentrail {
 namespace {
@@ -145,7 +145,7 @@ class BladeReader {
     const ExpressionVector along = cos(precone) * radial + sin(precone) * axis_;
     const ExpressionVector up = cos(precone) * axis_ - sin(precone) * radial;
     design.y = cos(pitch) * tangent + sin(pitch) * up;
-    const ExpressionVector root = position_of(draft_, hub_) + hub_radius * along;
+    const ExpressionVector root = draft_.at_guess(hub_) + hub_radius * along;
     const ExpressionVector tip = root + length * along;
     design.ends = {end("hub", root, carrier_, true), end("length", tip, {}, false)};
   }
