@@ -5,6 +5,7 @@
 
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/add_element.hpp"
 
 namespace eigentrail {
 namespace {
@@ -216,11 +217,7 @@ class TrimReader {
     }
     index_of(name, names, table, "condition", "joint with one angle (revolute, cylindrical)");
     TrimAngle result{draft_.joints.at(name).angles.front(), {}};
-    for (Place* direction : {&result.angle.axis, &result.angle.from, &result.angle.to}) {
-      if (!direction->moves()) continue;
-      direction->argument = static_cast<int>(result.arguments.size());
-      result.arguments.push_back(*direction);
-    }
+    ArgumentCollector(result.arguments).joint("", result.angle, "");
     return result;
   }
 

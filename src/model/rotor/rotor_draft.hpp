@@ -77,7 +77,6 @@ struct RotorDraft {
   std::array<PencilSum, rotor_effect_count> sums;  ///< of each effect
   std::array<int, rotor_effect_count> counts{};    ///< how many tables or nodes have it
   std::vector<std::string> coordinate_names, coordinate_units;
-  std::vector<std::pair<std::string, std::string>> data;  ///< what `explain` says
 
   PencilSum& sum(RotorEffect effect) { return sums[static_cast<std::size_t>(effect)]; }
   void count(RotorEffect effect) { ++counts[static_cast<std::size_t>(effect)]; }
