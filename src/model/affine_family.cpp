@@ -1,7 +1,6 @@
 #include "eigentrail/model/affine_family.hpp"
 
 #include <algorithm>
-#include <string>
 #include <type_traits>
 
 #include "model/affine_factor.hpp"

@@ -5,6 +5,10 @@
 
 namespace eigentrail {
 
+/// The n points and weights of Gauss-Legendre quadrature on [0, 1], exact for polynomials of degree 2 n - 1
+/// (Golub & Welsch 1969).
+std::vector<std::array<double, 2>> gauss_points(int n);
+
 /// Lagrange polynomials of the equidistant nodes of an element of degree 1 or 2, and their derivatives, at xi
 /// in [0, 1].
 struct ShapeFunctions {

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "model/beam_axis.hpp"
-#include "model/gauss_points.hpp"
-#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -282,28 +280,14 @@ std::string read_beam_name(Draft& draft, TableReader& table) {
 }
 
 void read_elements(TableReader& table, BeamDesign& design) {
-  if (table.has("elements")) design.elements = whole_number(table, "elements", 1, most_elements);
-  if (table.has("degree")) design.degree = whole_number(table, "degree", 1, 2);
+  if (table.has("elements")) design.elements = table.whole_number("elements", 1, most_elements);
+  if (table.has("degree")) design.degree = table.whole_number("degree", 1, 2);
 }
 
 std::array<FieldHelp, 2> element_fields() {
   return {FieldHelp{"elements", "", "number of elements, 1 to " + std::to_string(most_elements), "10"},
           FieldHelp{"degree", "",
                     "2: three nodes per element, errors of fourth order; 1: two nodes, second order", "2"}};
-}
-
-ExpressionVector position_of(const Draft& draft, const Place& place) {
-  ExpressionVector sum;
-  if (!place.moves()) {
-    for (std::size_t i = 0; i < 3; ++i) sum[i] = place.fixed[i].expression;
-    return sum;
-  }
-  for (const Term& term : place.terms) {
-    const std::size_t first = 3 * static_cast<std::size_t>(term.triple);
-    const ExpressionVector triple = {draft.guess[first], draft.guess[first + 1], draft.guess[first + 2]};
-    sum = sum + (term.weight.slot < 0 ? Expression(1.0) : term.weight.expression) * triple;
-  }
-  return sum;
 }
 
 void add_beam(Draft& draft, TableReader& table, const BeamDesign& design) {

@@ -31,9 +31,6 @@ std::string read_beam_name(Draft& draft, TableReader& table);
 void read_elements(TableReader& table, BeamDesign& design);
 std::array<FieldHelp, 2> element_fields();
 
-/// Position of a place at the starting guess.
-ExpressionVector position_of(const Draft& draft, const Place& place);
-
 /// Adds the nodes to the bodies, with their masses and the constraints that hold the ends, and the elements
 /// to BeamDraft::sections. `table` is named in messages.
 void add_beam(Draft& draft, TableReader& table, const BeamDesign& design);

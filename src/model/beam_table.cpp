@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "eigentrail/core/text.hpp"
 #include "model/station_columns.hpp"
 
 namespace eigentrail {
@@ -159,11 +158,9 @@ std::vector<BeamTable::Mass> read_mass(const Draft& draft, const TableReader& ta
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const std::vector<double> squares = draft.check_values(product[i] * product[i]);
     const std::vector<double> most = draft.check_values(flap[i] * lag[i]);
-    for (std::size_t p = 0; p < squares.size(); ++p) {
-      if (squares[p] > most[p] * (1.0 + 1e-12))
-        table.fail("inertia_product", "no section has it: its square exceeds inertia_flap times inertia_lag" +
-                                          Draft::where_on_trace(p));
-    }
+    draft.require(table, "inertia_product",
+                  "no section has it: its square exceeds inertia_flap times inertia_lag",
+                  [&](std::size_t p) { return !(squares[p] > most[p] * (1.0 + 1e-12)); });
     moments.push_back({mass[i], mass[i] * y[i], mass[i] * z[i], lag[i] + mass[i] * y[i] * y[i],
                        flap[i] + mass[i] * z[i] * z[i], product[i] + mass[i] * y[i] * z[i]});
   }

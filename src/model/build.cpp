@@ -4,12 +4,7 @@
 #include <stdexcept>
 
 #include "core/blas.hpp"
-#include "eigentrail/core/text.hpp"
-#include "model/read_matrix_family.hpp"
-#include "model/read_multibody.hpp"
-#include "model/read_trim.hpp"
-#include "model/rotor/read_rotor.hpp"
-#include "model/sampled_family.hpp"
+#include "model/model_readers.hpp"
 
 namespace eigentrail {
 void check_top_level(const Scene& scene) {
@@ -66,8 +61,9 @@ std::unique_ptr<Model> build_model(const Scene& scene, const ModelRequest& reque
     throw std::runtime_error(
         "not enough memory to compute: BLAS takes 128 MB at a time; allow more (ulimit -v)");
   if (!tables(scene, "trim").empty() && (is_matrix_family(scene) || is_rotor(scene)))
-    throw trim_error(scene,
-                     "a family of matrices or a scene with [[shaft]], which have no equilibrium to trim");
+    throw scene_error(scene, tables(scene, "trim").front()->where,
+                      "[[trim]]: not in a family of matrices or a scene with [[shaft]], which have no "
+                      "equilibrium to trim");
   if (!is_matrix_family(scene) && !is_rotor(scene)) return read_multibody(scene, request);
   if (is_rotor(scene)) return read_rotor(scene, request);
   if (!request.without.empty())

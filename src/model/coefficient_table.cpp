@@ -7,8 +7,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "eigentrail/scene/units.hpp"
-#include "model/beside_scene.hpp"
 #include "model/draft.hpp"
 #include "model/sample_interpolation.hpp"
 
@@ -145,12 +143,7 @@ std::string CoefficientTable::in_words() const {
 
 CoefficientTable read_coefficient_table(const Scene& scene, TableReader& table, const std::string& key,
                                         const Expression& argument, const TableColumns& columns) {
-  const std::string path = beside_scene(scene, table, key);
-  try {
-    return tabulate(read_csv(path), argument, columns);
-  } catch (const InputError& error) {
-    table.fail(key, error.what());
-  }
+  return read_csv(scene, table, key, [&](const CsvTable& csv) { return tabulate(csv, argument, columns); });
 }
 
 }  // namespace eigentrail

@@ -11,7 +11,6 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
-#include "model/beside_scene.hpp"
 
 namespace eigentrail {
 namespace {
@@ -108,15 +107,6 @@ CsvTable read_csv(const std::string& path) {
   }
   if (table.rows() == 0) throw InputError(path + ": has no rows; expected headings and lines of numbers");
   return table;
-}
-
-CsvTable read_csv(const Scene& scene, TableReader& table, const std::string& key) {
-  const std::string path = beside_scene(scene, table, key);
-  try {
-    return read_csv(path);
-  } catch (const InputError& error) {
-    table.fail(key, error.what());
-  }
 }
 
 double si_factor(const CsvTable& table, const CsvColumn& column, WantedUnit wanted) {

@@ -2,11 +2,10 @@
 // or tabs. Lines that begin with # and empty lines do not count.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "eigentrail/scene/scene.hpp"
+#include "model/beside_scene.hpp"
 
 namespace eigentrail {
 
@@ -28,8 +27,17 @@ struct CsvTable {
 
 /// Reads such a file. Throws InputError with path and line.
 CsvTable read_csv(const std::string& path);
-/// The file that a key of a scene's table names. Throws InputError with the place in the scene, too.
-CsvTable read_csv(const Scene& scene, TableReader& table, const std::string& key);
+
+/// What `read` makes of the file that a key of a scene's table names. InputErrors get the place in the scene.
+template <class Read>
+auto read_csv(const Scene& scene, TableReader& table, const std::string& key, Read read) {
+  const std::string path = beside_scene(scene, table, key);
+  try {
+    return read(read_csv(path));
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+}
 
 /// Factor of the values of a column to the SI unit of a quantity in `wanted`; empty: of any quantity. Throws
 /// InputError as si_values.

@@ -116,7 +116,7 @@ ExpressionVector Draft::at_guess(const Place& place) const {
     if (!place.moves()) sum[i] = place.fixed[i].expression;
     for (const Term& term : place.terms) {
       const Expression& component = guess[3 * static_cast<std::size_t>(term.triple) + i];
-      sum[i] = sum[i] + (term.weight.slot < 0 ? component : term.weight.expression * component);
+      sum[i] = sum[i] + (term.weight.slot < 0 ? Expression(1.0) : term.weight.expression) * component;
     }
   }
   return sum;

@@ -8,7 +8,6 @@
 
 #include "eigentrail/model/build.hpp"
 #include "model/expression_vector.hpp"
-#include "model/multiblade/bladed_rotor_draft.hpp"
 #include "model/multibody_data.hpp"
 
 namespace eigentrail {
@@ -32,6 +31,17 @@ struct BeamDraft {
   std::size_t first_body = 0;                      ///< its nodes are bodies from this index on
   std::shared_ptr<const BeamAxis> axis = nullptr;  ///< nodes and elements before it is loaded
   std::vector<BeamSection> sections = {};
+};
+
+/// What a scene says of a rotor of equal blades: [rotor].
+struct BladedRotorDraft {
+  int blades = 0;
+  int hub = 0;               ///< index of Draft::bodies
+  std::vector<bool> stands;  ///< by triple: of the support or the hub, in the frame that stands
+  /// Of the velocities of inflows, whose triples follow: 1 if the axis is that of rotation, -1 if it is
+  /// opposite.
+  std::vector<int> inflows;
+  SourceLocation where;
 };
 
 /// What a place or direction moves with: a body, a point, or neither (the frame).

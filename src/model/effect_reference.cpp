@@ -1,14 +1,7 @@
 // Describes the keys of all effects, collected from the registry.
 #include "eigentrail/core/text.hpp"
-#include "model/draft.hpp"
-#include "model/multiblade/read_bladed_rotor.hpp"
-#include "model/read_air.hpp"
-#include "model/read_beams.hpp"
-#include "model/read_blades.hpp"
-#include "model/read_inflow.hpp"
-#include "model/read_trim.hpp"
+#include "model/readers.hpp"
 #include "model/registry.hpp"
-#include "model/strips.hpp"
 
 namespace eigentrail {
 namespace {

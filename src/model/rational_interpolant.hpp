@@ -7,7 +7,6 @@
 // denominator q, w_j becomes w_j q(x_j): then q f is interpolated in that way and the result divided by q.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <span>

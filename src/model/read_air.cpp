@@ -1,14 +1,12 @@
-#include "model/read_air.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "model/add_element.hpp"
 #include "model/coefficient_table.hpp"
 #include "model/station_columns.hpp"
-#include "model/strips.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,8 +1,5 @@
-#include "model/read_beams.hpp"
+#include "model/readers.hpp"
 
-#include <algorithm>
-
-#include "eigentrail/core/text.hpp"
 #include "model/add_element.hpp"
 #include "model/beam_builder.hpp"
 
@@ -34,7 +31,7 @@ class BeamReader {
     end.place = draft_.read_place(table_, key, &end.carrier);
     if (end.carrier.point >= 0)
       table_.fail(key, "a point has no orientation; a beam needs a body or a fixed place");
-    end.position = position_of(draft_, end.place);
+    end.position = draft_.at_guess(end.place);
     return end;
   }
 

@@ -1,10 +1,8 @@
 // All kinds of constraints: their keys, and the rows that they consist of.
-#include <algorithm>
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
-#include "model/draft.hpp"
-#include "model/read_couplers.hpp"
+#include "model/readers.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/read_couplers.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,7 @@
-#include "model/read_inflow.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 #include <numbers>
-
-#include "eigentrail/core/text.hpp"
-#include "model/beam_builder.hpp"
 
 namespace eigentrail {
 namespace {
@@ -130,7 +127,7 @@ std::vector<InflowDraft> read_inflow(Draft& draft, const std::optional<Expressio
 void add_annulus(Draft& draft, const TableReader& table, InflowDraft& inflow, Strip& strip,
                  const Expression& width) {
   const ExpressionVector axis = expressions_of(inflow.disc.axis);
-  const ExpressionVector arm = position_of(draft, strip.quarter_chord) - expressions_of(inflow.disc.centre);
+  const ExpressionVector arm = draft.at_guess(strip.quarter_chord) - expressions_of(inflow.disc.centre);
   const ExpressionVector outward = arm - dot(arm, axis) * axis;
   const Expression r = sqrt(dot(outward, outward));
   const std::vector<double> inside = draft.check_values(inflow.radius - r);

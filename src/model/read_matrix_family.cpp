@@ -1,4 +1,4 @@
-#include "model/read_matrix_family.hpp"
+#include "model/model_readers.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,18 +1,11 @@
-#include "model/read_multibody.hpp"
+#include "model/model_readers.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/add_element.hpp"
 #include "model/beam_axis.hpp"
-#include "model/multiblade/read_bladed_rotor.hpp"
-#include "model/multiblade/rotor_parts.hpp"
 #include "model/multibody.hpp"
-#include "model/read_air.hpp"
-#include "model/read_beams.hpp"
-#include "model/read_blades.hpp"
-#include "model/read_trim.hpp"
-#include "model/strips.hpp"
+#include "model/readers.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,3 +1,5 @@
+#include "model/model_readers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,7 +12,6 @@
 #include "model/draft.hpp"
 #include "model/family_tables.hpp"
 #include "model/sampled_family.hpp"
-#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -131,8 +132,8 @@ std::unique_ptr<Model> read_sampled_family(const Scene& scene, const ModelReques
   for (double& value : data.values) value *= factor;
   const std::vector<std::size_t> kinks = read_kinks(table, data, variable.factor);
   std::optional<int> degree;
-  if (table.has("degree")) degree = whole_number(table, "degree", 1, highest_degree);
-  if (table.has("digits")) data.digits = whole_number(table, "digits", 1, 17);
+  if (table.has("degree")) degree = table.whole_number("degree", 1, highest_degree);
+  if (table.has("digits")) data.digits = table.whole_number("digits", 1, 17);
   table.finish();
   std::vector<int> unused = unused_parameters(scene, draft.used);
   check_within(scene, variable, index, data, draft.check_at);

@@ -1,10 +1,11 @@
-#include "model/read_trim.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/add_element.hpp"
 
 namespace eigentrail {
 namespace {
@@ -216,11 +217,7 @@ class TrimReader {
     }
     index_of(name, names, table, "condition", "joint with one angle (revolute, cylindrical)");
     TrimAngle result{draft_.joints.at(name).angles.front(), {}};
-    for (Place* direction : {&result.angle.axis, &result.angle.from, &result.angle.to}) {
-      if (!direction->moves()) continue;
-      direction->argument = static_cast<int>(result.arguments.size());
-      result.arguments.push_back(*direction);
-    }
+    ArgumentCollector(result.arguments).joint("", result.angle, "");
     return result;
   }
 
@@ -356,10 +353,6 @@ void read_trims(Draft& draft, const std::vector<InflowDraft>& inflows) {
   TrimReader reader(draft, inflows);
   draft.for_each_table(
       "trim", [&](TableReader& table, std::size_t) { draft.data.trims.push_back(reader.read(table)); });
-}
-
-InputError trim_error(const Scene& scene, const std::string& reason) {
-  return scene_error(scene, tables(scene, "trim").front()->where, "[[trim]]: not in " + reason);
 }
 
 std::vector<FieldHelp> trim_fields() {

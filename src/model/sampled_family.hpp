@@ -1,10 +1,7 @@
 // A model given by samples of its matrices at values of one parameter, interpolated between them.
 #pragma once
 
-#include <memory>
-
 #include "core/hdf5_file.hpp"
-#include "eigentrail/model/build.hpp"
 #include "eigentrail/model/matrix_model.hpp"
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
@@ -45,9 +42,5 @@ class SampledFamily final : public MatrixModel {
 
 /// Reads samples as read_samples does with a path.
 SampledData read_samples(const Hdf5File& file);
-
-/// Reads [sampled_family] of a scene; the values of the parameters at which the request has it checked must
-/// lie among the samples. Throws InputError for every fault in it.
-std::unique_ptr<Model> read_sampled_family(const Scene& scene, const ModelRequest& request);
 
 }  // namespace eigentrail

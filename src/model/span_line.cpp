@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "model/beam_axis.hpp"
-#include "model/gauss_points.hpp"
 
 namespace eigentrail {
 Combination sum_of(const std::vector<std::pair<Expression, Combination>>& parts) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "core/gaps.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "model/beside_scene.hpp"
 #include "model/csv_table.hpp"
 
 namespace eigentrail {
@@ -30,7 +30,7 @@ std::map<std::string, std::vector<double>> read_station_file(const Scene& scene,
                                                              const std::vector<FieldHelp>& fields) {
   const std::string path = beside_scene(scene, table);
   if (!std::filesystem::exists(path)) table.fail("file", "cannot open " + path);
-  const CsvTable stations = read_csv(scene, table, "file");
+  const CsvTable stations = read_csv(scene, table, "file", std::identity());
   if (stations.rows() > limits::list_length)
     table.fail("file", "expected at most " + std::to_string(limits::list_length) + " stations");
   std::map<std::string, std::vector<double>> columns;

@@ -1,11 +1,9 @@
-#include "model/strips.hpp"
+#include "model/readers.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include "model/add_element.hpp"
-#include "model/gauss_points.hpp"
-#include "model/whole_number.hpp"
+#include "model/beam_axis.hpp"
 
 namespace eigentrail {
 namespace {
@@ -47,7 +45,7 @@ BodyLine read_body_line(Draft& draft, TableReader& table, int body,
 }
 
 int read_strip_count(TableReader& table, int otherwise) {
-  return table.has("strips") ? whole_number(table, "strips", 1, most_strips) : otherwise;
+  return table.has("strips") ? table.whole_number("strips", 1, most_strips) : otherwise;
 }
 
 void read_strips(Draft& draft, const std::optional<ExpressionVector>& rotation) {

@@ -308,20 +308,4 @@ Expression operator/(const Expression& a, const Expression& b) {
   return b.is(1.0) ? a : Expression::compose(Op::divide, a, b);
 }
 
-Expression operator-(const Expression& a) {
-  return Expression::compose(Op::negate, a);
-}
-
-Expression sin(const Expression& a) {
-  return Expression::compose(Op::sin, a);
-}
-
-Expression cos(const Expression& a) {
-  return Expression::compose(Op::cos, a);
-}
-
-Expression sqrt(const Expression& a) {
-  return Expression::compose(Op::sqrt, a);
-}
-
 }  // namespace eigentrail

@@ -1,6 +1,7 @@
 #include "eigentrail/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/expression_dimension.hpp"
@@ -210,6 +211,14 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
 
 bool TableReader::flag(const std::string& key) {
   return as<bool>(*this, require(key, "true or false"), key, "true or false");
+}
+
+int TableReader::whole_number(const std::string& key, int least, int most) {
+  const Expression found = expression(key);
+  const double value = found.is_constant() ? found.evaluate(std::span<const double>()) : NAN;
+  if (!(value >= least && value <= most) || value != std::floor(value))
+    fail(key, "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(value);
 }
 
 std::vector<Expression> TableReader::list(const std::string& key, WantedUnit unit) {

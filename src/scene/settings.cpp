@@ -7,7 +7,6 @@
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
-#include "eigentrail/scene/units.hpp"
 
 namespace eigentrail {
 namespace {

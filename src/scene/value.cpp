@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <sstream>
 
 #include "core/texts.hpp"
 #include "eigentrail/scene/limits.hpp"

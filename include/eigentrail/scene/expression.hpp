@@ -105,10 +105,10 @@ class Expression {
   friend Expression operator-(const Expression& a, const Expression& b);
   friend Expression operator*(const Expression& a, const Expression& b);
   friend Expression operator/(const Expression& a, const Expression& b);
-  friend Expression operator-(const Expression& a);
-  friend Expression sin(const Expression& a);
-  friend Expression cos(const Expression& a);
-  friend Expression sqrt(const Expression& a);
+  friend Expression operator-(const Expression& a) { return compose(Op::negate, a); }
+  friend Expression sin(const Expression& a) { return compose(Op::sin, a); }
+  friend Expression cos(const Expression& a) { return compose(Op::cos, a); }
+  friend Expression sqrt(const Expression& a) { return compose(Op::sqrt, a); }
 
  private:
   friend class ExpressionParser;

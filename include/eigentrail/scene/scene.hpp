@@ -102,6 +102,9 @@ class TableReader {
   /// true or false.
   bool flag(const std::string& key);
 
+  /// The whole number of a key, which must be in the range.
+  int whole_number(const std::string& key, int least, int most);
+
   /// List of matrices, each a list of rows of expressions: [matrix][row][column].
   std::vector<std::vector<std::vector<Expression>>> matrices(const std::string& key);
 

@@ -8,7 +8,6 @@
 // sum_k phi_a phi_b = N w_a delta_ab with w = 1, 1/2, 1/2, ..., 1.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

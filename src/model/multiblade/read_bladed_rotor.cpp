@@ -1,9 +1,8 @@
-#include "model/multiblade/read_bladed_rotor.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 
 #include "eigentrail/core/text.hpp"
-#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -24,7 +23,7 @@ int read_blade_count(TableReader& table) {
             "be wrong; on a support that is the same in all directions describe the whole rotor in the "
             "turning frame, without [rotor]");
   }
-  return whole_number(table, "blades", fewest_blades, most_blades);
+  return table.whole_number("blades", fewest_blades, most_blades);
 }
 
 /// Marks the triples of the point, body or beam with this name.

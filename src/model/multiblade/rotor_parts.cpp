@@ -1,4 +1,4 @@
-#include "model/multiblade/rotor_parts.hpp"
+#include "model/readers.hpp"
 
 #include <algorithm>
 

@@ -92,11 +92,8 @@ class Compiler {
         active_[i] = {own.b};
         return;
       case Operator::rate:
-        active_[i] = {n + own.b};
-        zero_[i] = true;
-        return;
       case Operator::acceleration:
-        active_[i] = {2 * n + own.b};
+        active_[i] = {(own.op == Operator::rate ? n : 2 * n) + own.b};
         zero_[i] = true;
         return;
       case Operator::add:
@@ -203,6 +200,7 @@ class Compiler {
   int power_tangent(const Operation& own, int direction);
   int choice_tangent(const Operation& own, int direction);
   int slope(int node);
+  int new_slope(int node);
   int both(Operator op, int of, bool second);
 
   const Record& record_;
@@ -220,11 +218,9 @@ class Compiler {
 };
 
 int Compiler::value(int node) {
-  if (values_[at(node)] < 0) {
-    const int reg = new_value(node);
-    values_[at(node)] = reg;
-  }
-  return values_[at(node)];
+  int& reg = values_[at(node)];
+  if (reg < 0) reg = new_value(node);
+  return reg;
 }
 
 /// The first or second result of an instruction that has two.
@@ -285,38 +281,34 @@ int Compiler::new_value(int node) {
 int Compiler::slope(int node) {
   const auto known = slopes_.find(node);
   if (known != slopes_.end()) return known->second;
+  const int reg = new_slope(node);
+  return slopes_[node] = reg;
+}
+
+int Compiler::new_slope(int node) {
   const Operation& own = operation(node);
-  int reg = -1;
   switch (own.op) {
     case Operator::exp:
-      reg = value(node);
-      break;
+      return value(node);
     case Operator::log:
-      reg = emit(Operator::divide, one_, value(own.a));
-      break;
+      return emit(Operator::divide, one_, value(own.a));
     case Operator::sin:
-      reg = both(Operator::sin, own.a, true);
-      break;
+      return both(Operator::sin, own.a, true);
     case Operator::sinh:
-      reg = both(Operator::sinh, own.a, true);
-      break;
+      return both(Operator::sinh, own.a, true);
     case Operator::cosh:
-      reg = both(Operator::sinh, own.a, false);
-      break;
+      return both(Operator::sinh, own.a, false);
     case Operator::tanh:
-      reg = emit(Operator::multiply_behind, value(node), value(node), one_);
-      break;
+      return emit(Operator::multiply_behind, value(node), value(node), one_);
     case Operator::atan: {
       const int x = value(own.a);
-      reg = emit(Operator::divide, one_, emit(Operator::multiply_add, x, x, one_));
-      break;
+      return emit(Operator::divide, one_, emit(Operator::multiply_add, x, x, one_));
     }
     case Operator::asin:
     case Operator::acos: {
       const int x = value(own.a);
       const int root = emit(Operator::sqrt, emit(Operator::multiply_behind, x, x, one_));
-      reg = emit(Operator::divide, own.op == Operator::asin ? one_ : minus_one_, root);
-      break;
+      return emit(Operator::divide, own.op == Operator::asin ? one_ : minus_one_, root);
     }
     case Operator::function:
       value(node);
@@ -324,8 +316,6 @@ int Compiler::slope(int node) {
     default:
       throw std::logic_error("Compiler: a function without derivative");
   }
-  slopes_[node] = reg;
-  return reg;
 }
 
 int Compiler::tangent(int node, int direction) {

@@ -38,16 +38,8 @@ Recorded Recorder::input(Operator op, Inputs& inputs, int of_model, int& count) 
   return push({op, at->second});
 }
 
-Recorded Recorder::number(int slot) {
-  return input(Operator::number, numbers_, slot, record_.n_numbers);
-}
-
 Recorded Recorder::coordinate(int index) {
   return input(Operator::coordinate, coordinates_, index, record_.n_coordinates);
-}
-
-Recorded Recorder::constant(double value) {
-  return push({Operator::constant, -1, -1, value});
 }
 
 Recorded Recorder::component(const std::vector<std::pair<int, Recorded>>& shares) {
@@ -63,14 +55,6 @@ Recorded Recorder::component(const std::vector<std::pair<int, Recorded>>& shares
   return push({Operator::component, node(value), n_components() - 1});
 }
 
-Recorded Recorder::rate(int component) {
-  return push({Operator::rate, -1, component});
-}
-
-Recorded Recorder::acceleration(int component) {
-  return push({Operator::acceleration, -1, component});
-}
-
 Recorded Recorder::apply(const SmoothFunction& f, const Recorded& x) {
   auto at = std::find(functions_.begin(), functions_.end(), &f);
   if (at == functions_.end()) {
@@ -79,15 +63,6 @@ Recorded Recorder::apply(const SmoothFunction& f, const Recorded& x) {
     at = functions_.end() - 1;
   }
   return push({Operator::function, node(x), static_cast<int>(at - functions_.begin())});
-}
-
-Recorded Recorder::operation(Operator op, const Recorded& a) {
-  return push({op, node(a)});
-}
-
-Recorded Recorder::operation(Operator op, const Recorded& a, const Recorded& b) {
-  const int left = node(a);
-  return push({op, left, node(b)});
 }
 
 namespace {

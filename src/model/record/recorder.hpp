@@ -17,19 +17,21 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   /// A number of the model by its slot. Numbers are inputs in the order of their first use.
-  Recorded number(int slot);
+  Recorded number(int slot) { return input(Operator::number, numbers_, slot, record_.n_numbers); }
   /// A constant that is an operation: computed with the precision of each evaluation.
-  Recorded constant(double value);
+  Recorded constant(double value) { return push({Operator::constant, -1, -1, value}); }
   /// A coordinate of the model by its index, likewise.
   Recorded coordinate(int index);
   /// A new component, sum of weight * coordinate.
   Recorded component(const std::vector<std::pair<int, Recorded>>& shares);
-  Recorded rate(int component);
-  Recorded acceleration(int component);
+  Recorded rate(int component) { return push({Operator::rate, -1, component}); }
+  Recorded acceleration(int component) { return push({Operator::acceleration, -1, component}); }
   Recorded apply(const SmoothFunction& f, const Recorded& x);
 
-  Recorded operation(Operator op, const Recorded& a);
-  Recorded operation(Operator op, const Recorded& a, const Recorded& b);
+  Recorded operation(Operator op, const Recorded& a) { return push({op, node(a)}); }
+  Recorded operation(Operator op, const Recorded& a, const Recorded& b) {
+    return push({op, node(a), node(b)});
+  }
 
   /// The operation that is a value; literals become constants.
   int node(const Recorded& value);

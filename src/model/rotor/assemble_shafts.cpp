@@ -9,7 +9,6 @@
 // Damping of the rotating material, -eta K (d/dt in the shaft's own frame), adds eta K to C in both planes,
 // and
 // + Omega eta K u_y, - Omega eta K u_x: forces without a potential.
-#include <numbers>
 
 #include "model/rotor/rotor_draft.hpp"
 

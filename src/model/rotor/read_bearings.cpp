@@ -1,13 +1,10 @@
 // Reads the [[bearing]] tables of a rotor: bearings and seals on nodes, with constant coefficients,
 // expressions or a table over the speed.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "eigentrail/core/text.hpp"
 #include "model/coefficient_table.hpp"
 #include "model/rotor/rotor_draft.hpp"
-#include "model/whole_number.hpp"
 
 namespace eigentrail {
 namespace {
@@ -98,7 +95,7 @@ std::optional<CoefficientTable> read_columns(RotorDraft& rotor, TableReader& tab
                                   ? rotor.draft.read_number(table, "over", std::nullopt, Range::any)
                                   : rotor.shafts[place.shaft].speed;
   TableColumns known = bearing_columns(table.has("over") ? "" : "rad/s");
-  if (table.has("degree")) known.degree = whole_number(table, "degree", 1, highest_degree);
+  if (table.has("degree")) known.degree = table.whole_number("degree", 1, highest_degree);
   if (table.has("exact")) known.exact = table.flag("exact");
   CoefficientTable columns = read_coefficient_table(rotor.draft.scene, table, "table", argument, known);
   const std::vector<double> arguments = rotor.draft.check_values(argument);
@@ -149,7 +146,7 @@ void read_bearings(RotorDraft& rotor) {
     }
     std::string text = (ends.front().second ? "between " : "at ") + where;
     if (columns) text += "; " + columns->in_words();
-    rotor.data.emplace_back("bearing " + std::to_string(i + 1), text);
+    rotor.draft.notes.emplace_back("bearing " + std::to_string(i + 1), text);
   });
 }
 

@@ -1,5 +1,4 @@
 // Reads the [[disc]] tables: rigid discs on nodes of shafts.
-#include <cmath>
 #include <numbers>
 
 #include "core/texts.hpp"
@@ -81,8 +80,8 @@ void read_discs(RotorDraft& rotor) {
       add_disc(rotor, place, disc);
       where += (where.empty() ? "" : ", ") + rotor.name_of(place);
     }
-    rotor.data.emplace_back("disc " + std::to_string(i + 1),
-                            short_text(rotor.first_value(disc.mass), 6) + " kg at " + where);
+    rotor.draft.notes.emplace_back("disc " + std::to_string(i + 1),
+                                   short_text(rotor.first_value(disc.mass), 6) + " kg at " + where);
   });
 }
 

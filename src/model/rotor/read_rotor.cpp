@@ -1,9 +1,8 @@
-#include "model/rotor/read_rotor.hpp"
+#include "model/model_readers.hpp"
 
 #include <algorithm>
 
 #include "core/texts.hpp"
-#include "eigentrail/core/text.hpp"
 #include "eigentrail/model/affine_family.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
@@ -91,7 +90,7 @@ ModelDescription describe(RotorDraft& rotor) {
     description.data.emplace_back(shaft.name.empty() ? "shaft" : "shaft " + shaft.name,
                                   shaft_in_words(rotor, shaft));
   }
-  description.data.insert(description.data.end(), rotor.data.begin(), rotor.data.end());
+  description.data.insert(description.data.end(), rotor.draft.notes.begin(), rotor.draft.notes.end());
   description.coordinate_names = std::move(rotor.coordinate_names);
   description.coordinate_units = std::move(rotor.coordinate_units);
   description.effects = rotor_effects(rotor, static_cast<Eigen::Index>(description.coordinate_names.size()));

@@ -1,10 +1,8 @@
 // Reads the [[shaft]] tables: geometry, material, rotation and damping.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/scene/limits.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
 namespace eigentrail {
@@ -41,38 +39,31 @@ void spread(const TableReader& table, const std::string& key, std::vector<Value>
 
 /// A CSV file: a row per segment with its length, or per end of a segment with its position; the last of
 /// these closes the shaft and has no segment.
-Stations stations_of_file(const RotorDraft& rotor, TableReader& shaft) {
-  const CsvTable table = read_csv(rotor.draft.scene, shaft, "stations");
+Stations stations_of_file(const CsvTable& table) {
   const std::vector<std::string> known = {"length", "position", "outer", "inner", "elements"};
   for (const CsvColumn& column : table.columns) {
     if (std::find(known.begin(), known.end(), column.name) == known.end())
-      shaft.fail("stations",
-                 table.path + ": unknown column '" + column.name + "'; " + suggestion(column.name, known));
+      throw InputError(table.path + ": unknown column '" + column.name + "'; " +
+                       suggestion(column.name, known));
   }
   const bool by_position = table.find("position") != nullptr;
   if (by_position == (table.find("length") != nullptr))
-    shaft.fail("stations", table.path + ": expected a column 'length' or a column 'position'");
+    throw InputError(table.path + ": expected a column 'length' or a column 'position'");
   if (table.find("outer") == nullptr)
-    shaft.fail("stations", table.path + ": expected a column 'outer', the outer diameter");
+    throw InputError(table.path + ": expected a column 'outer', the outer diameter");
   const std::size_t count = table.rows() - (by_position ? 1 : 0);
-  if (count == 0) shaft.fail("stations", table.path + ": has one position; a segment lies between two");
+  if (count == 0) throw InputError(table.path + ": has one position; a segment lies between two");
   const auto column = [&](const std::string& name, const std::string& unit) {
-    std::vector<double> values;
-    try {
-      values = si_values(table, *table.find(name), unit);
-    } catch (const InputError& error) {
-      shaft.fail("stations", error.what());
-    }
-    return values;
+    return si_values(table, *table.find(name), unit);
   };
   Stations result;
   if (by_position) {
     const std::vector<double> positions = column("position", "m");
     for (std::size_t i = 1; i < positions.size(); ++i) {
       if (!(positions[i] > positions[i - 1]))
-        shaft.fail("stations", table.path + ":" + std::to_string(table.lines[i]) +
-                                   ": the positions must ascend; found " + exact_text(positions[i]) +
-                                   " m behind " + exact_text(positions[i - 1]) + " m");
+        throw InputError(table.path + ":" + std::to_string(table.lines[i]) +
+                         ": the positions must ascend; found " + exact_text(positions[i]) + " m behind " +
+                         exact_text(positions[i - 1]) + " m");
     }
     result.length = differences(constants(positions));
   } else {
@@ -144,7 +135,9 @@ void check_segment(const RotorDraft& rotor, TableReader& shaft, const ShaftSegme
 void read_segments(RotorDraft& rotor, TableReader& table, ShaftDraft& shaft) {
   if (!table.has("stations"))
     table.fail("stations", "is missing; expected { length = [...], outer = [...] } or a CSV file");
-  Stations stations = table.is_table("stations") ? stations_of_scene(table) : stations_of_file(rotor, table);
+  Stations stations = table.is_table("stations")
+                          ? stations_of_scene(table)
+                          : read_csv(rotor.draft.scene, table, "stations", stations_of_file);
   const std::size_t count = stations.length.size();
   if (table.has("elements")) {
     if (!stations.elements.empty())

@@ -9,10 +9,24 @@
 #include "model/csv_table.hpp"
 #include "model/draft.hpp"
 #include "model/rotor/pencil_sum.hpp"
-#include "model/rotor/rotor_effects.hpp"
 #include "model/rotor/shaft_element.hpp"
 
 namespace eigentrail {
+
+/// The effects that a rotor is made of: what `explain` lists, what a strength multiplies and what --without
+/// leaves out.
+enum class RotorEffect : std::size_t {
+  shaft,             ///< elastic forces of shafts
+  shaft_mass,        ///< inertia of shafts
+  disc,              ///< inertia of discs
+  gyroscopic,        ///< gyroscopic moments of shafts and discs
+  shaft_damping,     ///< damping of shafts that does not rotate
+  internal_damping,  ///< damping that rotates with the shaft
+  bearing,
+  seal,  ///< bearings with added mass
+  support,
+};
+inline constexpr std::size_t rotor_effect_count = 9;
 
 /// Freedoms of a node: displacements along x, y, z and rotations about them, right-handed; z is the axis.
 enum NodeFreedom : std::size_t { along_x, along_y, about_x, about_y, along_z, about_z };
@@ -63,7 +77,6 @@ struct RotorDraft {
   std::array<PencilSum, rotor_effect_count> sums;  ///< of each effect
   std::array<int, rotor_effect_count> counts{};    ///< how many tables or nodes have it
   std::vector<std::string> coordinate_names, coordinate_units;
-  std::vector<std::pair<std::string, std::string>> data;  ///< what `explain` says
 
   PencilSum& sum(RotorEffect effect) { return sums[static_cast<std::size_t>(effect)]; }
   void count(RotorEffect effect) { ++counts[static_cast<std::size_t>(effect)]; }
@@ -86,5 +99,15 @@ void assemble_shafts(RotorDraft& rotor);
 /// Read the [[disc]] tables and the [[bearing]] tables, and add their matrices.
 void read_discs(RotorDraft& rotor);
 void read_bearings(RotorDraft& rotor);
+
+/// Throws InputError if an effect that the request leaves out is not in the scene, or cannot be left out.
+void check_rotor_without(const RotorDraft& rotor);
+
+/// The effects of the scene, in order, with what each of them contributes to n x n matrices.
+std::vector<Effect> rotor_effects(const RotorDraft& rotor, Eigen::Index n);
+
+/// The sum of all effects that are not left out. Each is multiplied by its strength, if strengths are asked
+/// for.
+AffinePencil<SparseMatrix> pencil_of_effects(RotorDraft& rotor, Eigen::Index n);
 
 }  // namespace eigentrail

@@ -1,8 +1,5 @@
-#include "model/rotor/rotor_effects.hpp"
-
 #include <algorithm>
 
-#include "eigentrail/core/text.hpp"
 #include "model/affine_factor.hpp"
 #include "model/rotor/rotor_draft.hpp"
 
@@ -26,11 +23,6 @@ constexpr std::array<EffectWords, rotor_effect_count> words = {{
     {"seal", "stiffness, damping and mass of bearings with added mass"},
     {"support", "freedoms that do not move"},
 }};
-
-bool is_left_out(const RotorDraft& rotor, std::size_t effect) {
-  const std::vector<std::string>& without = rotor.draft.request.without;
-  return std::find(without.begin(), without.end(), words[effect].name) != without.end();
-}
 
 bool is_empty(const PencilSum& sum) {
   return sum.M.empty() && sum.C.empty() && sum.K.empty();
@@ -70,7 +62,7 @@ std::vector<Effect> rotor_effects(const RotorDraft& rotor, Eigen::Index n) {
     if (i == static_cast<std::size_t>(RotorEffect::support)) {
       effect.count = rotor.counts[i];
       effect.contribution.constraint = true;
-    } else if (!is_empty(rotor.sums[i]) && !is_left_out(rotor, i)) {
+    } else if (!is_empty(rotor.sums[i]) && !rotor.draft.is_left_out(words[i].name)) {
       effect.count = rotor.counts[i];
       effect.contribution = contribution_of(rotor.sums[i], n);
     }
@@ -81,7 +73,7 @@ std::vector<Effect> rotor_effects(const RotorDraft& rotor, Eigen::Index n) {
 AffinePencil<SparseMatrix> pencil_of_effects(RotorDraft& rotor, Eigen::Index n) {
   PencilSum all;
   for (std::size_t i = 0; i < rotor_effect_count; ++i) {
-    if (is_empty(rotor.sums[i]) || is_left_out(rotor, i)) continue;
+    if (is_empty(rotor.sums[i]) || rotor.draft.is_left_out(words[i].name)) continue;
     const Quantity strength = rotor.draft.strength(words[i].name);
     const Expression factor = rotor.draft.request.strengths ? strength.expression : Expression(1.0);
     all.M.add(rotor.sums[i].M, factor);

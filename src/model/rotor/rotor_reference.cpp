@@ -1,5 +1,5 @@
 // Describes the keys of the tables of a rotor.
-#include "model/rotor/read_rotor.hpp"
+#include "model/model_readers.hpp"
 
 namespace eigentrail {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "eigentrail/model/affine_family.hpp"
 #include "eigentrail/model/sample_errors.hpp"
