@@ -176,22 +176,21 @@ void add_shifted(double factor, const double* series, std::size_t size, std::siz
   for (std::size_t k = first; k < room && k - first < size; ++k) sum[k] += factor * series[k - first];
 }
 
-/// left(h)^T B(h) right(h), column by column. The coefficients of a column lie together.
-MatrixSeries by_columns(const SparseSeries& left, const SystemSeries& B, const SparseSeries& right,
-                        std::size_t count) {
-  const std::size_t products = std::min(count, B.size() + right.size() - 1);
-  MatrixSeries result(std::min(count, products + left.size() - 1),
-                      Matrix::Zero(left[0].cols(), right[0].cols()));
-  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  const std::vector<Rows> rows_of_left(left.begin(), left.end());
+}  // namespace
+
+// Column by column; the coefficients of a column lie together.
+MatrixSeries SparseCongruence::operator()(const SystemSeries& B, std::size_t count) const {
+  const std::size_t products = std::min(count, B.size() + right_.size() - 1);
+  MatrixSeries result(std::min(count, products + left_.size() - 1),
+                      Matrix::Zero(left_[0].cols(), right_[0].cols()));
   // Of B(h) right(h), and the rows that are not zero; of the result.
   Matrix column = Matrix::Zero(static_cast<Eigen::Index>(products), B[0].rows());
   std::vector<Eigen::Index> filled;
   std::vector<char> is_filled(static_cast<std::size_t>(column.cols()));
-  Matrix sum(static_cast<Eigen::Index>(result.size()), left[0].cols());
-  for (Eigen::Index c = 0; c < right[0].cols(); ++c) {
-    for (std::size_t j = 0; j < right.size(); ++j) {
-      for (SparseMatrix::InnerIterator r(right[j], c); r; ++r) {
+  Matrix sum(static_cast<Eigen::Index>(result.size()), left_[0].cols());
+  for (Eigen::Index c = 0; c < right_[0].cols(); ++c) {
+    for (std::size_t j = 0; j < right_.size(); ++j) {
+      for (SparseMatrix::InnerIterator r(right_[j], c); r; ++r) {
         for (std::size_t i = 0; i < B.size() && i + j < products; ++i) {
           for (SparseMatrix::InnerIterator b(B[i].sparse(), r.row()); b; ++b) {
             column(static_cast<Eigen::Index>(i + j), b.row()) += b.value() * r.value();
@@ -203,8 +202,8 @@ MatrixSeries by_columns(const SparseSeries& left, const SystemSeries& B, const S
     std::sort(filled.begin(), filled.end());
     sum.setZero();
     for (const Eigen::Index row : filled) {
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        for (Rows::InnerIterator l(rows_of_left[i], row); l; ++l)
+      for (std::size_t i = 0; i < left_.size(); ++i) {
+        for (decltype(left_)::value_type::InnerIterator l(left_[i], row); l; ++l)
           add_shifted(l.value(), column.col(row).data(), products, i, sum.col(l.col()).data(), result.size());
       }
       column.col(row).setZero();
@@ -216,17 +215,15 @@ MatrixSeries by_columns(const SparseSeries& left, const SystemSeries& B, const S
   return result;
 }
 
-}  // namespace
-
-std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
-                                              const MatrixSeries& right, std::size_t count) {
-  if (!B[0].is_sparse()) return std::nullopt;
+std::optional<SparseCongruence> SparseCongruence::of(const MatrixSeries& left, const MatrixSeries& right) {
   const auto sparse_left = mostly_zero(left);
   if (!sparse_left) return std::nullopt;
-  if (&left == &right) return by_columns(*sparse_left, B, *sparse_left, count);
-  const auto sparse_right = mostly_zero(right);
+  SparseCongruence result;
+  result.left_.assign(sparse_left->begin(), sparse_left->end());
+  auto sparse_right = &left == &right ? sparse_left : mostly_zero(right);
   if (!sparse_right) return std::nullopt;
-  return by_columns(*sparse_left, B, *sparse_right, count);
+  result.right_ = *std::move(sparse_right);
+  return result;
 }
 
 ComplexMatrix product(const Matrix& A, const ComplexMatrix& X) {

@@ -28,10 +28,19 @@ using SparseSeries = std::vector<SparseMatrix>;
 /// bodies whose constraints fall into blocks; else empty.
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A);
 
-/// The first coefficients, at most `count`, of left(h)^T B(h) right(h). Empty unless B has sparse
-/// coefficients and most entries of each of the other ones are exactly zero.
-std::optional<MatrixSeries> sparse_congruence(const MatrixSeries& left, const SystemSeries& B,
-                                              const MatrixSeries& right, std::size_t count);
+/// left(h)^T B(h) right(h) for several B, where most entries of `left` and `right` are exactly zero.
+class SparseCongruence {
+ public:
+  /// Empty unless most entries of each coefficient are zero.
+  static std::optional<SparseCongruence> of(const MatrixSeries& left, const MatrixSeries& right);
+
+  /// The first coefficients, at most `count`. B: with sparse coefficients.
+  MatrixSeries operator()(const SystemSeries& B, std::size_t count) const;
+
+ private:
+  std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> left_;
+  SparseSeries right_;
+};
 
 /// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h). Zeros of the factor that is given second
 /// and first, respectively, are left out where they are most of its entries.

@@ -24,23 +24,34 @@ int for_each_coefficient(const Evaluation& evaluation, int slot, int lane, int o
   return top;
 }
 
+/// The matrix whose entries are a row of `sums`. Of a sparse one only those that are not zero are kept.
 template <class Real>
-BasicSystemMatrix<Real> matrix_of(const Pattern& pattern, const Real* entries) {
+BasicSystemMatrix<Real> matrix_of(const Pattern& pattern, const typename BasicPath<Real>::Columns& sums,
+                                  int k) {
   using Dense = typename BasicSystemMatrix<Real>::Dense;
   using Sparse = typename BasicSystemMatrix<Real>::Sparse;
-  if (!pattern.is_sparse()) return Dense(Eigen::Map<const Dense>(entries, pattern.rows, pattern.columns));
-  const Eigen::Map<const Sparse> all(pattern.rows, pattern.columns, static_cast<Eigen::Index>(pattern.size()),
-                                     pattern.first.data(), pattern.row.data(), entries);
-  return Sparse(all.pruned());
+  if (!pattern.is_sparse()) return Dense(sums.row(k).reshaped(pattern.rows, pattern.columns));
+  Sparse kept(pattern.rows, pattern.columns);
+  kept.reserve(static_cast<Eigen::Index>(pattern.size()));
+  for (int j = 0; j < pattern.columns; ++j) {
+    kept.startVec(j);
+    const auto column = static_cast<std::size_t>(j);
+    for (int i = pattern.first[column]; i < pattern.first[column + 1]; ++i) {
+      const Real& entry = sums(k, i);
+      if (entry != Real(0.0)) kept.insertBack(pattern.row[static_cast<std::size_t>(i)], j) = entry;
+    }
+  }
+  kept.finalize();
+  return kept;
 }
 
-/// The sum as a series without trailing coefficients that are zero.
+/// The sums, a row for each coefficient, as a series without trailing coefficients that are zero.
 template <class Real>
-void take_sum(const Pattern& pattern, const typename BasicPath<Real>::Columns& sum, int top,
-              typename BasicLinearization<Real>::Coefficients& result) {
-  while (top > 0 && sum.col(top).isZero(Real(0.0))) --top;
+void take_sums(const Pattern& pattern, const typename BasicPath<Real>::Columns& sums, int top,
+               typename BasicLinearization<Real>::Coefficients& result) {
+  while (top > 0 && sums.row(top).isZero(Real(0.0))) --top;
   result.clear();
-  for (int k = 0; k <= top; ++k) result.push_back(matrix_of<Real>(pattern, sum.col(k).data()));
+  for (int k = 0; k <= top; ++k) result.push_back(matrix_of<Real>(pattern, sums, k));
 }
 
 /// Evaluates the programs of all batches of some equations.
@@ -62,7 +73,7 @@ class EquationRun {
   EvaluationFault linearization(BasicLinearization<Real>& result) {
     for (std::size_t target = 0; target < work_.sums.size(); ++target) {
       const auto size = static_cast<Eigen::Index>(equations_.patterns[target].size());
-      work_.sums[target].setZero(size, values_.order + 1);
+      work_.sums[target].setZero(values_.order + 1, size);
     }
     for (const Batch& batch : equations_.batches) {
       for_each_element(batch, batch.derivatives, [&](const auto& evaluation, std::size_t element, int lane) {
@@ -71,7 +82,7 @@ class EquationRun {
     }
     const std::array matrices = {&result.M, &result.C, &result.K, &result.A};
     for (std::size_t target = 0; target < matrices.size(); ++target)
-      take_sum<Real>(equations_.patterns[target], work_.sums[target], tops_[target], *matrices[target]);
+      take_sums<Real>(equations_.patterns[target], work_.sums[target], tops_[target], *matrices[target]);
     return fault();
   }
 
@@ -170,7 +181,7 @@ class EquationRun {
       const int at = *position++;
       const int top =
           for_each_coefficient(evaluation, entry.slot, lane, values_.order, [&](int k, const Real& value) {
-            sum(at, k) += of_force ? -value : value;
+            sum(k, at) += of_force ? -value : value;
             probe.add(value);
           });
       tops_[target] = std::max(tops_[target], top);

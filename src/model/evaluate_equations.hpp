@@ -12,7 +12,7 @@ template <class Real>
 struct EquationWork {
   Evaluation<Real, 1> single;
   Evaluation<Real, std::is_same_v<Real, double> ? lanes : 1> several;
-  std::array<typename BasicPath<Real>::Columns, 4> sums;  ///< pattern size x (order + 1)
+  std::array<typename BasicPath<Real>::Columns, 4> sums;  ///< (order + 1) x pattern size
 };
 
 /// Residual of equations: sets `result`, of which only the first m rows of `constraint` are set.

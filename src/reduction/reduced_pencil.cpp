@@ -29,12 +29,21 @@ MatrixSeries times_basis(const SystemSeries& B, const MatrixSeries& T, std::size
   return product;
 }
 
-}  // namespace
+/// The products of one basis with all matrices, if most entries of the basis are zero and matrices are
+/// sparse.
+std::optional<SparseCongruence> sparse_products(const TangentBasis& basis, const Linearization& matrices) {
+  const bool any = matrices.M[0].is_sparse() || matrices.C[0].is_sparse() || matrices.K[0].is_sparse();
+  if (!any || basis.is_identity) return std::nullopt;
+  if (!basis.left.empty()) return SparseCongruence::of(basis.left, basis.T);
+  if (basis.parts) return SparseCongruence::of({basis.parts->left}, basis.T);
+  return SparseCongruence::of(basis.T, basis.T);
+}
 
-MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order) {
+MatrixSeries project(const TangentBasis& basis, const std::optional<SparseCongruence>& sparse,
+                     const SystemSeries& B, int order) {
   const MatrixSeries& T = basis.T;
   if (basis.is_identity) return dense_terms(B, last_order(order, B.size(), 1) + 1);
-  if (auto sparse = sparse_congruence(T, B, T, static_cast<std::size_t>(order) + 1)) return *sparse;
+  if (sparse && B[0].is_sparse()) return (*sparse)(B, static_cast<std::size_t>(order) + 1);
   const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
   const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
   // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
@@ -48,12 +57,6 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
   }
   return result;
 }
-
-MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
-  return project(basis, SystemSeries(B.begin(), B.end()), order);
-}
-
-namespace {
 
 /// The rows of the only entries of every column; empty if a column has not one entry.
 std::vector<Eigen::Index> only_entries(const Matrix& A) {
@@ -96,17 +99,21 @@ Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
   B.add_product_to(product, parts.right);
   for (const IndependentParts::Range& range : parts.ranges) {
     if (range.complex_sign < 0) continue;  // has the same matrices
-    result.block(range.first, range.first, range.size, range.size).noalias() =
-        parts.left.middleCols(range.first, range.size).transpose() *
-        product.middleCols(range.first, range.size);
+    const auto left = parts.left.middleCols(range.first, range.size);
+    const auto columns = product.middleCols(range.first, range.size);
+    auto block = result.block(range.first, range.first, range.size, range.size);
+    if (B.is_sparse())
+      block = transposed_product(Matrix(left), Matrix(columns));
+    else
+      block.noalias() = left.transpose() * columns;
   }
   return result;
 }
 
 /// left^T B right within its pattern, coefficient by coefficient up to h^order. Of what is beside the
 /// diagonal blocks nothing is used.
-MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, const Matrix& pattern,
-                         int order) {
+MatrixSeries transformed(const IndependentParts& parts, const std::optional<SparseCongruence>& sparse,
+                         const SystemSeries& B, const Matrix& pattern, int order) {
   const std::size_t count = last_order(order, B.size(), 1) + 1;
   MatrixSeries result(count);
   if (parts.is_diagonal) {
@@ -114,10 +121,13 @@ MatrixSeries transformed(const IndependentParts& parts, const SystemSeries& B, c
       result[k] = parts.left.diagonal().asDiagonal() * B[k].dense() * parts.right.diagonal().asDiagonal();
     return result;
   }
-  std::optional<MatrixSeries> sparse;
-  if (B[0].is_sparse()) sparse = sparse_congruence({parts.left}, B, {parts.right}, count);
-  for (std::size_t k = 0; k < count; ++k)
-    result[k] = (sparse ? (*sparse)[k] : blocks_of(parts, B[k])).cwiseProduct(pattern);
+  if (sparse && B[0].is_sparse()) {
+    result = (*sparse)(B, count);
+  } else {
+    std::transform(B.begin(), B.begin() + static_cast<std::ptrdiff_t>(count), result.begin(),
+                   [&](const SystemMatrix& coefficient) { return blocks_of(parts, coefficient); });
+  }
+  for (Matrix& coefficient : result) coefficient = coefficient.cwiseProduct(pattern);
   return result;
 }
 
@@ -132,14 +142,15 @@ MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& rang
 
 /// The same where the basis changes along the path: left(h)^T B(h) right(h), of which the diagonal blocks are
 /// used. Freedoms that no force holds stay without force.
-MatrixSeries transformed(const TangentBasis& basis, const SystemSeries& B, const Matrix& pattern, int order) {
+MatrixSeries transformed(const TangentBasis& basis, const std::optional<SparseCongruence>& sparse,
+                         const SystemSeries& B, const Matrix& pattern, int order) {
   const auto product = [&] {
     const MatrixSeries BT = times_basis(B, basis.T, last_order(order, B.size() + basis.T.size(), 2) + 1);
     const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
     return transposed_product(basis.left, BT, count);
   };
-  auto sparse = sparse_congruence(basis.left, B, basis.T, static_cast<std::size_t>(order) + 1);
-  MatrixSeries result = sparse ? *std::move(sparse) : product();
+  MatrixSeries result =
+      sparse && B[0].is_sparse() ? (*sparse)(B, static_cast<std::size_t>(order) + 1) : product();
   for (const IndependentParts::Range& range : basis.parts->ranges) {
     if (range.size > 1) continue;
     for (Matrix& coefficient : result)
@@ -162,10 +173,11 @@ MatrixSeries canonical(MatrixSeries B, const IndependentParts& parts) {
 
 ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasis& basis, int order) {
   const IndependentParts& parts = *basis.parts;
+  const auto sparse = sparse_products(basis, linearization);
   const auto reduced = [&](const SystemSeries& B, const Matrix& pattern) {
-    return canonical(
-        basis.left.empty() ? transformed(parts, B, pattern, order) : transformed(basis, B, pattern, order),
-        parts);
+    return canonical(basis.left.empty() ? transformed(parts, sparse, B, pattern, order)
+                                        : transformed(basis, sparse, B, pattern, order),
+                     parts);
   };
   ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
                       reduced(linearization.K, parts.pattern_K)};
@@ -190,8 +202,9 @@ ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasi
 
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order) {
   if (basis.parts) return reduce_parts(linearization, basis, order);
-  return {project(basis, linearization.M, order), project(basis, linearization.C, order),
-          project(basis, linearization.K, order)};
+  const auto sparse = sparse_products(basis, linearization);
+  return {project(basis, sparse, linearization.M, order), project(basis, sparse, linearization.C, order),
+          project(basis, sparse, linearization.K, order)};
 }
 
 }  // namespace eigentrail

@@ -67,8 +67,8 @@ BorderedKkt::BorderedKkt(const SystemMatrix& K, const ConstraintFactorization& c
   }
   Matrix B(f + q, f + q);
   const MatrixSeries basis{Q2};
-  const auto tangent = sparse_congruence(basis, {K_}, basis, 1);
-  B.topLeftCorner(f, f) = tangent ? tangent->front() : Matrix(Q2.transpose() * (K_ * Q2));
+  const auto sparse = K_.is_sparse() ? SparseCongruence::of(basis, basis) : std::nullopt;
+  B.topLeftCorner(f, f) = sparse ? (*sparse)({K_}, 1).front() : Matrix(Q2.transpose() * (K_ * Q2));
   for (Eigen::Index i = 0; i < q; ++i) {
     B.block(0, f + i, f, 1) = Q2.transpose() * (border_.force.col(i) + K_ * follow_.col(i));
     B.block(f + i, 0, 1, f) = row.col(i).transpose() * Q2;

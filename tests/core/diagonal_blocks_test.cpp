@@ -78,13 +78,14 @@ TEST(SparseProducts, AreTheDenseOnes) {
   EXPECT_FALSE(mostly_zero(MatrixSeries{T[0], Matrix::Random(75, 30)}));
   SystemSeries B;
   for (const Matrix& coefficient : dense) B.emplace_back(sparse(coefficient));
-  EXPECT_FALSE(sparse_congruence(dense, B, T, 4));
-  EXPECT_FALSE(sparse_congruence(T, SystemSeries(dense.begin(), dense.end()), T, 4));
+  EXPECT_FALSE(SparseCongruence::of(dense, T));
+  EXPECT_FALSE(SparseCongruence::of(T, dense));
   const MatrixSeries BT = product(dense, T, 4), TBT = transposed_product(T, BT, 4);
-  const auto together = sparse_congruence(T, B, T, 4), of_copy = sparse_congruence(T, B, MatrixSeries(T), 4);
-  ASSERT_TRUE(together && of_copy);
-  ASSERT_EQ(together->size(), 4U);
-  EXPECT_EQ(*together, *of_copy);
+  const auto with_T = SparseCongruence::of(T, T), with_copy = SparseCongruence::of(T, MatrixSeries(T));
+  ASSERT_TRUE(with_T && with_copy);
+  const MatrixSeries together = (*with_T)(B, 4);
+  ASSERT_EQ(together.size(), 4U);
+  EXPECT_EQ(together, (*with_copy)(B, 4));
   for (std::size_t k = 0; k < 4; ++k) {
     Matrix expected_BT = Matrix::Zero(75, 30), expected = Matrix::Zero(30, 30);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -97,13 +98,13 @@ TEST(SparseProducts, AreTheDenseOnes) {
     }
     EXPECT_LT((BT[k] - expected_BT).norm(), rounding * expected_BT.norm());
     EXPECT_LT((TBT[k] - expected).norm(), rounding * expected.norm());
-    EXPECT_LT(((*together)[k] - expected).norm(), rounding * expected.norm());
+    EXPECT_LT((together[k] - expected).norm(), rounding * expected.norm());
   }
 }
 
 TEST(SparseProducts, HaveNoMoreCoefficientsThanThereAre) {
   const Matrix one = Matrix::Identity(12, 12);
-  EXPECT_EQ(sparse_congruence({one}, {sparse(one)}, {one}, 6).value().size(), 1U);
+  EXPECT_EQ(SparseCongruence::of({one}, {one}).value()({sparse(one)}, 6).size(), 1U);
 }
 
 }  // namespace

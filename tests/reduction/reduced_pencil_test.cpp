@@ -20,6 +20,13 @@ MatrixSeries random_series(std::size_t length, Eigen::Index rows, Eigen::Index c
   return series;
 }
 
+MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
+  const SystemSeries all(B.begin(), B.end());
+  Linearization linearization;
+  linearization.M = linearization.C = linearization.K = all;
+  return reduce(linearization, basis, order).K;
+}
+
 TEST(ReducedPencil, SeriesProductMatchesTheProductOfTheSeries) {
   const TangentBasis basis{random_series(5, 6, 3, 1), false};
   const MatrixSeries B = random_series(5, 6, 6, 2);
