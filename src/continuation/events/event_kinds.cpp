@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/texts.hpp"
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
 namespace {
@@ -136,6 +137,16 @@ const EventKindInfo* find_event_kind(std::string_view name) {
   const auto* const found = std::find_if(kinds.begin(), kinds.end(),
                                          [name](const EventKindInfo& info) { return info.name == name; });
   return found == kinds.end() ? nullptr : found;
+}
+
+std::string event_name(EventKind kind) {
+  return std::string(event_kind(kind).name);
+}
+
+std::string event_line(const Event& event) {
+  const std::string modes = joined(event.modes, ";", [](int mode) { return std::to_string(mode + 1); });
+  return event_name(event.kind) + ',' + exact_text(event.p) + ',' + exact_text(event.s.real()) + ',' +
+         exact_text(event.s.imag()) + ',' + modes;
 }
 
 }  // namespace eigentrail
