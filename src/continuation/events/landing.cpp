@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "continuation/events/common_collision.hpp"
-#include "continuation/events/overlooked_collision.hpp"
+#include "continuation/events/step_checks.hpp"
 #include "continuation/events/walk.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
