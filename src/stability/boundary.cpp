@@ -10,8 +10,6 @@
 
 #include "continuation/archived_parts.hpp"
 #include "stability/corners.hpp"
-#include "stability/curve_start.hpp"
-#include "stability/extremum_walk.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,11 +1,26 @@
-// Follows a boundary from a starting point (seed) in both directions.
+// Finds the first point of a boundary, its seed, from a place where stability changes, and follows the
+// boundary from there in both directions.
 #pragma once
 
 #include <functional>
 
 #include "stability/curve_step.hpp"
+#include "stability/line_scan.hpp"
 
 namespace eigentrail {
+
+struct CurveStart {
+  std::optional<CurvePoint> point;  ///< empty if no curve begins here
+  std::string failure;              ///< why Newton's method failed, in words; empty if it did not
+  std::string remark;               ///< what the user should know of the place; empty without
+  RunCounts counts;
+};
+
+/// The function whose zeros are the curve through a seed.
+BoundaryFunction function_of(const BoundarySeed& seed, const BoundaryOptions& options);
+
+/// Corrects a seed by Newton's method and expands the curve through it.
+CurveStart start_curve(const Window& window, const BoundaryOptions& options, const BoundarySeed& seed);
 
 struct FollowOptions {
   double tolerance = 1e-6;  ///< of the place in the scaled window, and of s as in TraceOptions
