@@ -217,9 +217,8 @@ Sight CriterionWalk::look(double distance) {
 }
 
 bool CriterionWalk::run(double t) {
-  WalkRules rules;
-  rules.free_moves = 0;
-  const Walk found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
+  const auto look_from = [this](double distance) { return look(distance); };
+  const Walk found = walk(t * step_.h, {.free_moves = 0}, look_from);
   if (found.end == WalkEnd::absent) {
     if (ending_ == Ending::at_meeting) record(0.0, false);
     return ending_ != Ending::unsettled;

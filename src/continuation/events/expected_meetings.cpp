@@ -105,12 +105,10 @@ MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, d
         for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
           if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
         }
-        if (!stretch.is_whole()) {
-          std::erase_if(found, [&](double position) {
-            const double t = position / length;
-            return t < stretch.from || t > stretch.to;
-          });
-        }
+        std::erase_if(found, [&](double position) {
+          const double t = position / length;
+          return t < stretch.from || t > stretch.to;
+        });
         for (const double position : found) {
           meetings.push_back({branches[b], branches[a], position});
           meetings.back().has_just_met = has_just_met;

@@ -58,9 +58,7 @@ bool land_on_end(StepSolver& solver, Step& step) {
       const bool there = std::abs(miss) <= on_end * std::max(range.length(), std::abs(end));
       return {there ? Sight::Kind::settled : Sight::Kind::seen, miss / frame.speed(step.right)};
     };
-    WalkRules rules;
-    rules.begin = 0.0;
-    rules.end = beyond_step * step.h;
+    const WalkRules rules{.begin = 0.0, .end = beyond_step * step.h};
     if (walk(guess, rules, look).end != WalkEnd::settled) return false;
     step.right.p = step.right.path.parameters(range.traced, 0) = end;
     return true;
@@ -83,11 +81,7 @@ bool land_on_fold(StepSolver& solver, Step& step) {
     step = std::move(*attempted.step);
     return {Sight::Kind::seen, fold_distance(frame, step.right)};
   };
-  WalkRules rules;
-  rules.resolution = landing_accuracy;
-  rules.rounding = on_fold;
-  rules.begin = 0.0;
-  rules.end = step.h;
+  const WalkRules rules{.resolution = landing_accuracy, .rounding = on_fold, .begin = 0.0, .end = step.h};
   return walk(step.h * before / (before - behind), rules, look).end == WalkEnd::settled;
 }
 
@@ -214,7 +208,13 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
   for (const bool may_go_back : {true, false}) {
     double earlier = 0.0;
     bool own_end = false;
-    WalkRules rules;
+    WalkRules rules{.resolution = resolution,
+                    .rounding = at_point_,
+                    .begin = 0.0,
+                    .end = h,
+                    // What is zero on a branch point is double, and known as that.
+                    .slack = frame.on_branch_point(step_.right) ? at_point_ : beyond * std::abs(h),
+                    .looks = most_looks - looks};
     const auto look = [&](double at) {
       double rounding = 0.0;
       const Sight sight = look_from(at, expected, trusting, branches, earlier, rounding);
@@ -222,13 +222,6 @@ MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected,
       own_end = sight.kind == Sight::Kind::settled;
       return sight;
     };
-    rules.resolution = resolution;
-    rules.rounding = at_point_;
-    rules.begin = 0.0;
-    rules.end = h;
-    // What is zero on a branch point is double, and known as that.
-    rules.slack = frame.on_branch_point(step_.right) ? at_point_ : beyond * std::abs(h);
-    rules.looks = most_looks - looks;
     const Walk found = walk(distance, rules, look);
     looks += found.looks;
     distance = found.position;

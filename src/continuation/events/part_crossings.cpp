@@ -139,9 +139,8 @@ Event CrossingWalk::event_here() const {
 std::optional<Event> CrossingWalk::from(double t) {
   for (std::size_t i = 0; i < 2; ++i) roots_[i] = on_step_.root(*modes_[i], t);
   const double speed = std::max(std::abs(search_.frame().speed(*step_.left)), 1e-300);
-  WalkRules rules;
-  rules.resolution = crossing_resolution * search_.frame().range.length() / speed;
-  rules.rounding = rounding_moves * rules.resolution;
+  const double resolution = crossing_resolution * search_.frame().range.length() / speed;
+  const WalkRules rules{.resolution = resolution, .rounding = rounding_moves * resolution};
   const auto found = walk(t * step_.h, rules, [this](double h) { return look(h); });
   if (found.end != WalkEnd::settled) return std::nullopt;
   const double scale = std::max(std::abs(s_[0]), search_.problem().s_ref);

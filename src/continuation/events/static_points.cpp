@@ -153,41 +153,34 @@ FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h)
   const PathFrame& frame = search.frame();
   if (!frame.plane || !(heading(frame, node, -h) * heading(frame, node, h) < 0.0)) return {};
   if (frame.on_branch_point(node)) return {};
-  FoundEvents found;
-  Event event;
   // With trimmed parameters the path turns back where the steady equations with the conditions are singular;
   // the stiffness, of motion with these parameters held, is not.
   const bool trimmed = search.problem().model.n_trims() > 0;
   const bool is_fold = trimmed || kernel_share(search, node) > search.thresholds().statics.branch_point_share;
-  event.kind = !is_fold ? EventKind::branch_point : is_cusp(search, node) ? EventKind::cusp : EventKind::fold;
-  if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
+  const EventKind of_limit = is_fold && is_cusp(search, node) ? EventKind::cusp : EventKind::fold;
   // The vertex of the parabola p(h): with the distance d to it and the slope at the point, p changes by
   // d / 2 times the slope on the way.
-  event.p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node);
-  event.retrackings = 1;
-  event.node = search.node;
-  if (trimmed) {
+  Event event{.kind = is_fold ? of_limit : EventKind::branch_point,
+              .p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node),
+              .retrackings = 1,
+              .node = search.node};
+  if (!trimmed) keep_vanishing_motion(search, node, event);
+  if (trimmed || event.kind == EventKind::cusp)  // no other parameter only moves a cusp: it becomes two folds
     leave_unknown(search.problem(), event);
-    found.events.push_back(std::move(event));
-    return found;
-  }
-  keep_vanishing_motion(search, node, event);
-  if (event.kind == EventKind::fold)
+  else if (is_fold)
     keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
-  else if (event.kind == EventKind::cusp)  // no other parameter only moves it: it becomes two folds, or none
-    leave_unknown(search.problem(), event);
-  found.events.push_back(std::move(event));
+  FoundEvents found{{std::move(event)}};
+  if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
   return found;
 }
 
 FoundEvents find_branch_point(const EventSearch& search, const PathNode& node) {
   if (!search.frame().on_branch_point(node)) return {};
-  Event event;
-  event.kind = EventKind::branch_point;
-  event.p = search.frame().branch_point.p;
-  event.direction = direction_of_growth(search, node);
-  event.retrackings = 1;
-  event.node = search.node;
+  Event event{.kind = EventKind::branch_point,
+              .p = search.frame().branch_point.p,
+              .direction = direction_of_growth(search, node),
+              .retrackings = 1,
+              .node = search.node};
   keep_vanishing_motion(search, node, event);
   event.modes.clear();  // the mode numbers are those of one path; the point belongs to both
   return {{std::move(event)}};
@@ -217,10 +210,8 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   event.kind = EventKind::branch_point;
   event.modes.clear();
   event.copies.clear();
-  FoundEvents found;
-  found.notes.push_back(note_on_branch_point(search, event.p));
-  found.events.push_back(std::move(event));
-  return found;
+  std::string note = note_on_branch_point(search, event.p);
+  return {{std::move(event)}, {std::move(note)}};
 }
 
 FoundEvents find_trimmed_crossing(const EventSearch& search, const Step& step) {
@@ -234,16 +225,13 @@ FoundEvents find_trimmed_crossing(const EventSearch& search, const Step& step) {
   const double end = is_fold(step.right) ? 1.0 - beside_fold : 1.0;
   const int before = path.sign(begin), behind = path.sign(end);
   if (before * behind >= 0) return {};
-  Event event;
-  event.kind = EventKind::branch_point;
-  event.p = path.p(place_of_change(path, begin, end, before));
-  event.node = search.node;
+  Event event{.kind = EventKind::branch_point,
+              .p = path.p(place_of_change(path, begin, end, before)),
+              .node = search.node};
   leave_unknown(search.problem(), event);
-  FoundEvents found;
-  found.notes.push_back("another trimmed path crosses at " + place_text(search.options, event.p) +
-                        "; the trace stays on its own, and branches there cannot be chosen");
-  found.events.push_back(std::move(event));
-  return found;
+  std::string note = "another trimmed path crosses at " + place_text(search.options, event.p) +
+                     "; the trace stays on its own, and branches there cannot be chosen";
+  return {{std::move(event)}, {std::move(note)}};
 }
 
 }  // namespace eigentrail
