@@ -1,8 +1,6 @@
 #include "continuation/events/criterion_walk.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/nearby_mode.hpp"

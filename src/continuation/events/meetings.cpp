@@ -1,7 +1,5 @@
 #include "continuation/events/meetings.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,9 +1,5 @@
 #include "continuation/events/roots_on_step.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace eigentrail {
 namespace {
 
