@@ -218,7 +218,7 @@ MapTotals total(const StabilityMap& map) {
 
 std::vector<std::string> notes_on(const StabilityMap& map, const std::string& second) {
   std::vector<std::string> notes;
-  const auto note = [&](const std::string& what, auto&& applies, bool with_reason) {
+  const auto note = [&](const std::string& what, bool with_reason, bool (*applies)(const MapLine&)) {
     const auto first = std::find_if(map.lines.begin(), map.lines.end(), applies);
     const auto count = std::count_if(map.lines.begin(), map.lines.end(), applies);
     if (count == 0) return;
@@ -226,22 +226,16 @@ std::vector<std::string> notes_on(const StabilityMap& map, const std::string& se
                     ", first at " + second + " = " + short_text(first->second, 6) +
                     (with_reason ? ": " + first->message : ""));
   };
-  note(
-      "could not be begun; their cells are unknown",
-      [](const MapLine& line) { return !has_started(line.status); }, true);
-  note(
-      "ended early; cells beyond are unknown",
-      [](const MapLine& line) { return has_started(line.status) && line.status != TraceStatus::completed; },
-      true);
-  note(
-      "miss a mode somewhere; their cells there are unknown",
-      [](const MapLine& line) { return line.doubtful_cells > 0; }, false);
-  note(
-      "turn back at a fold; their cells show the first passage",
-      [](const MapLine& line) { return line.turned_back; }, false);
-  note(
-      "are stable among the followed modes; others are not known",
-      [](const MapLine& line) { return line.partial_cells > 0; }, false);
+  note("could not be begun; their cells are unknown", true,
+       [](const MapLine& line) { return !has_started(line.status); });
+  note("ended early; cells beyond are unknown", true,
+       [](const MapLine& line) { return has_started(line.status) && line.status != TraceStatus::completed; });
+  note("miss a mode somewhere; their cells there are unknown", false,
+       [](const MapLine& line) { return line.doubtful_cells > 0; });
+  note("turn back at a fold; their cells show the first passage", false,
+       [](const MapLine& line) { return line.turned_back; });
+  note("are stable among the followed modes; others are not known", false,
+       [](const MapLine& line) { return line.partial_cells > 0; });
   return notes;
 }
 
