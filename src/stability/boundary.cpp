@@ -209,10 +209,9 @@ void BoundarySearch::follow_at_once(const std::vector<std::size_t>& seeds,
     ++points_;
     report(share);
   };
-  const FollowOptions options{options_.trace.tolerance, options_.trace.max_nodes};
   const auto follow_from = [&](std::size_t seed) {
     return packed(
-        follow_curve(window_, function_of(seeds_[seed], options_), options, *starts_[seed], on_point));
+        follow_curve(window_, function_of(seeds_[seed], options_), options_.trace, *starts_[seed], on_point));
   };
   const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});
   for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);

@@ -59,7 +59,7 @@ double first_negative(Value&& value) {
 /// The part of a curve on one side of its seed.
 class Arm {
  public:
-  Arm(const Window& window, const BoundaryFunction& function, const FollowOptions& options,
+  Arm(const Window& window, const BoundaryFunction& function, const TraceOptions& options,
       const CurvePoint& seed, double sign, const OnPoint& on_point, RunCounts& counts)
       : window_(window),
         function_(function),
@@ -78,7 +78,7 @@ class Arm {
  private:
   const Window& window_;
   const BoundaryFunction& function_;
-  const FollowOptions& options_;
+  const TraceOptions& options_;
   double sign_;
   const OnPoint& on_point_;
   RunCounts& counts_;
@@ -177,7 +177,7 @@ bool Arm::advance(StepControl& control) {
   steps.push_back(*step);
   if (folds() && h < shortest_beside_fold) return stop_at_fold();
   on_point_();
-  if (static_cast<int>(points.size()) < options_.max_points) return true;
+  if (static_cast<int>(points.size()) < options_.max_nodes) return true;
   return stop(CurveEnd::lost, "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");
 }
 
@@ -359,7 +359,7 @@ bool FollowedCurve::passes(const Place& place, Complex s, double tolerance, doub
 }
 
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
-                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point) {
+                           const TraceOptions& options, CurvePoint seed, const OnPoint& on_point) {
   seed.flags |= seed_flag;
   FollowedCurve curve;
   curve.function = function;

@@ -22,11 +22,6 @@ BoundaryFunction function_of(const BoundarySeed& seed, const BoundaryOptions& op
 /// Corrects a seed by Newton's method and expands the curve through it.
 CurveStart start_curve(const Window& window, const BoundaryOptions& options, const BoundarySeed& seed);
 
-struct FollowOptions {
-  double tolerance = 1e-6;  ///< of the place in the scaled window, and of s as in TraceOptions
-  int max_points = 100000;  ///< largest number of points of a curve in each direction from the seed
-};
-
 /// How a curve ends, and why in words; empty if the end needs none.
 struct ArmEnd {
   CurveEnd how = CurveEnd::lost;
@@ -49,8 +44,9 @@ struct FollowedCurve {
 /// Called after every point.
 using OnPoint = std::function<void()>;
 
-/// Follows the curve through `seed` in both directions until it ends or closes.
+/// Follows the curve through `seed` in both directions until it ends or closes. Of the options: `tolerance`,
+/// of s and of the place in the scaled window, and `max_nodes`, in each direction from the seed.
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
-                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point);
+                           const TraceOptions& options, CurvePoint seed, const OnPoint& on_point);
 
 }  // namespace eigentrail
