@@ -57,15 +57,151 @@ class Scanner {
   Scanner(const Window& window, const BoundaryOptions& options, const ScanLine& line)
       : window_(window), options_(options), line_(line) {}
 
-  LineScan run();
+  LineScan run() {
+    const TraceResult result = trace_line(0.0, 1.0);
+    report(result);
+    const double end = window_.declared(line_.at(1.0))[line_.along];
+    const double range = std::abs(end - window_.declared(line_.at(0.0))[line_.along]);
+    const bool complete =
+        result.status == TraceStatus::completed && std::abs(result.reached - end) <= arrived * range;
+    if (complete) return std::move(scan_);
+    // The part of the line beyond the place where the trace ended may be reached from the other end.
+    const TraceResult back = trace_line(1.0, 0.0);
+    report(back);
+    const std::string reason = result.message.empty() ? "the equilibrium turns back" : result.message;
+    const int other = 1 - line_.along;
+    scan_.findings.push_back(
+        {scan_.started ? "lines not searched from end to end" : "lines that could not be begun",
+         window_.name(other) + " = " + window_.value_text(other, line_.held) + ": " + reason});
+    return std::move(scan_);
+  }
 
  private:
-  TraceResult trace_line(double from, double to);
-  Sample sample(const PathPosition& at) const;
-  void look_at(const PathPosition& at);
-  void add_seed(const PathPosition& at, Eigen::Index mode);
-  void add_extremum(Eigen::Index mode, double before, double here, double behind);
-  void report(const TraceResult& result);
+  TraceResult trace_line(double from, double to) {
+    const Place held = window_.declared(line_.at(0.5));
+    const int other = 1 - line_.along;
+    TraceOptions options = options_.trace;
+    options.parameter = window_.name(line_.along);
+    options.values[window_.name(other)] = held[other];
+    options.from = window_.declared(line_.at(from))[line_.along];
+    options.to = window_.declared(line_.at(to))[line_.along];
+    options.tolerance = scan_tolerance;
+    options.certify = false;
+    options.events = {.veerings = false, .other_paths = false};  // and extrema are found by the scan itself
+    options.first_step.reset();
+    options.max_step = std::abs(options.to - options.from) / steps_per_line;
+    nodes_.clear();
+    PathRecorder recorder;
+    TraceObserver observer;
+    observer.started = [this](const TraceStart& start) {
+      scan_.started = true;
+      scan_.s_ref = start.s_ref;
+    };
+    observer.point = [&](const TracePoint& point) {
+      recorder.append(point);
+      nodes_.push_back(point.node.path);
+      return true;
+    };
+    TraceResult result = trace(window_.model(), options, observer);
+    scan_.counts.modes.factorizations += result.counts.modes.factorizations;
+    scan_.counts.spectra += result.counts.spectra;
+    path_ = recorder.path();
+    before_.reset();
+    last_.reset();
+    signs_.assign(static_cast<std::size_t>(path_.eigenvalues.cols()), 0.0);
+    for (std::size_t step = 0; step < path_.steps.size(); ++step) {
+      for (int k = step == 0 ? 0 : 1; k <= samples_per_step; ++k)
+        look_at({step, static_cast<double>(k) / samples_per_step});
+    }
+    return result;
+  }
+
+  Sample sample(const PathPosition& at) const {
+    const Path& left = nodes_[at.step];
+    const double h = at.t * path_.steps[at.step].length;
+    return {line_.at(window_.scaled(line_.along, path_.parameter_at(at))),
+            {evaluate_series(left.x, h), evaluate_series(left.lambda, h), true},
+            path_.eigenvalues_at(at)};
+  }
+
+  void look_at(const PathPosition& at) {
+    Sample here = sample(at);
+    for (Eigen::Index mode = 0; mode < here.s.size(); ++mode) {
+      const Complex s = here.s[mode];
+      double& sign = signs_[static_cast<std::size_t>(mode)];
+      if (!std::isfinite(s.real())) {
+        sign = 0.0;
+        continue;
+      }
+      if (has_sign(s)) {
+        const double sign_here = instability(options_, s) > 0.0 ? 1.0 : -1.0;
+        if (sign * sign_here < 0.0) add_seed(at, mode);
+        sign = sign_here;
+      }
+      if (!before_) continue;
+      add_extremum(mode, instability(options_, before_->s[mode]), instability(options_, last_->s[mode]),
+                   instability(options_, s));
+    }
+    before_ = std::move(last_);
+    last_ = std::move(here);
+  }
+
+  /// Adds the place between the sample at `at` and the one before it, at which the instability changes its
+  /// sign.
+  void add_seed(const PathPosition& at, Eigen::Index mode) {
+    const auto instability_at = [&](double t) {
+      return instability(options_, path_.eigenvalues_at({at.step, t})[mode]);
+    };
+    const double behind = instability_at(at.t);
+    const Bisected place = bisected(at.t - 1.0 / samples_per_step, at.t, halvings,
+                                    [&](double t) { return !(instability_at(t) * behind > 0.0); });
+    const Sample there = sample({at.step, place.first_without});
+    const Complex s = there.s[mode];
+    if (!passes_zero(options_, s, scan_.s_ref)) return;
+    // The damping ratio of a real eigenvalue is 1 or -1, never the one asked for.
+    if (s.imag() == 0.0 && options_.damping_ratio) return;
+    scan_.seeds.push_back(
+        {there.place, Place::Unit(line_.along), kind_of(options_, s), s, there.equilibrium});
+  }
+
+  void add_extremum(Eigen::Index mode, double before, double here, double behind) {
+    const double sign = here < 0.0 ? 1.0 : -1.0;
+    if (!(sign * (here - before) > 0.0 && sign * (here - behind) > 0.0)) return;
+    const Complex s = last_->s[mode];
+    if (options_.damping_ratio && s.imag() == 0.0) return;
+    const double least = scan_tolerance * std::max(std::abs(s), scan_.s_ref);
+    if (sign * (here - before) < least && sign * (here - behind) < least) return;
+    scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
+  }
+
+  /// Seeds where modes without damping coalesce, or a stiffness is lost. Notes folds of the equilibrium,
+  /// whose curves are not followed; divergence seeds at a fold are removed.
+  void report(const TraceResult& result) {
+    for (const Event& event : result.events) {
+      const Place place = line_.at(window_.scaled(line_.along, event.p));
+      if (event.kind == EventKind::fold) {
+        scan_.findings.push_back({"folds of the equilibrium, which are not followed", window_.text(place)});
+        std::erase_if(scan_.seeds, [&place](const BoundarySeed& seed) {
+          return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
+        });
+      }
+      // Where nothing is damped, modes oscillate on one side of these: no growth changes its sign.
+      const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::branch_point;
+      if (options_.damping_ratio || event.direction == 0 || !may_be) continue;
+      const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];
+      const Place direction = Place::Unit(line_.along);
+      if (event.s == 0.0) {
+        scan_.seeds.push_back(
+            {place, direction, BoundaryKind::divergence, 0.0, {node.x.col(0), node.lambda.col(0), true}});
+        continue;
+      }
+      const Place beside =
+          place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
+      scan_.seeds.push_back(
+          {beside, direction, BoundaryKind::coalescence, event.s, {node.x.col(0), node.lambda.col(0), true}});
+    }
+  }
+
   bool has_sign(Complex s) const {
     return std::abs(instability(options_, s)) > scan_tolerance * std::max(std::abs(s), scan_.s_ref);
   }
@@ -80,149 +216,6 @@ class Scanner {
   /// Per mode: the last sign of its instability; 0: none yet, or the mode does not exist.
   std::vector<double> signs_;
 };
-
-LineScan Scanner::run() {
-  const TraceResult result = trace_line(0.0, 1.0);
-  report(result);
-  const double end = window_.declared(line_.at(1.0))[line_.along];
-  const double range = std::abs(end - window_.declared(line_.at(0.0))[line_.along]);
-  const bool complete =
-      result.status == TraceStatus::completed && std::abs(result.reached - end) <= arrived * range;
-  if (complete) return std::move(scan_);
-  // The part of the line beyond the place where the trace ended may be reached from the other end.
-  const TraceResult back = trace_line(1.0, 0.0);
-  report(back);
-  const std::string reason = result.message.empty() ? "the equilibrium turns back" : result.message;
-  const int other = 1 - line_.along;
-  scan_.findings.push_back(
-      {scan_.started ? "lines not searched from end to end" : "lines that could not be begun",
-       window_.name(other) + " = " + window_.value_text(other, line_.held) + ": " + reason});
-  return std::move(scan_);
-}
-
-TraceResult Scanner::trace_line(double from, double to) {
-  const Place held = window_.declared(line_.at(0.5));
-  const int other = 1 - line_.along;
-  TraceOptions options = options_.trace;
-  options.parameter = window_.name(line_.along);
-  options.values[window_.name(other)] = held[other];
-  options.from = window_.declared(line_.at(from))[line_.along];
-  options.to = window_.declared(line_.at(to))[line_.along];
-  options.tolerance = scan_tolerance;
-  options.certify = false;
-  options.events = {.veerings = false, .other_paths = false};  // and extrema are found by the scan itself
-  options.first_step.reset();
-  options.max_step = std::abs(options.to - options.from) / steps_per_line;
-  nodes_.clear();
-  PathRecorder recorder;
-  TraceObserver observer;
-  observer.started = [this](const TraceStart& start) {
-    scan_.started = true;
-    scan_.s_ref = start.s_ref;
-  };
-  observer.point = [&](const TracePoint& point) {
-    recorder.append(point);
-    nodes_.push_back(point.node.path);
-    return true;
-  };
-  TraceResult result = trace(window_.model(), options, observer);
-  scan_.counts.modes.factorizations += result.counts.modes.factorizations;
-  scan_.counts.spectra += result.counts.spectra;
-  path_ = recorder.path();
-  before_.reset();
-  last_.reset();
-  signs_.assign(static_cast<std::size_t>(path_.eigenvalues.cols()), 0.0);
-  for (std::size_t step = 0; step < path_.steps.size(); ++step) {
-    for (int k = step == 0 ? 0 : 1; k <= samples_per_step; ++k)
-      look_at({step, static_cast<double>(k) / samples_per_step});
-  }
-  return result;
-}
-
-Sample Scanner::sample(const PathPosition& at) const {
-  const Path& left = nodes_[at.step];
-  const double h = at.t * path_.steps[at.step].length;
-  return {line_.at(window_.scaled(line_.along, path_.parameter_at(at))),
-          {evaluate_series(left.x, h), evaluate_series(left.lambda, h), true},
-          path_.eigenvalues_at(at)};
-}
-
-void Scanner::look_at(const PathPosition& at) {
-  Sample here = sample(at);
-  for (Eigen::Index mode = 0; mode < here.s.size(); ++mode) {
-    const Complex s = here.s[mode];
-    double& sign = signs_[static_cast<std::size_t>(mode)];
-    if (!std::isfinite(s.real())) {
-      sign = 0.0;
-      continue;
-    }
-    if (has_sign(s)) {
-      const double sign_here = instability(options_, s) > 0.0 ? 1.0 : -1.0;
-      if (sign * sign_here < 0.0) add_seed(at, mode);
-      sign = sign_here;
-    }
-    if (!before_) continue;
-    add_extremum(mode, instability(options_, before_->s[mode]), instability(options_, last_->s[mode]),
-                 instability(options_, s));
-  }
-  before_ = std::move(last_);
-  last_ = std::move(here);
-}
-
-/// Adds the place between the sample at `at` and the one before it, at which the instability changes its
-/// sign.
-void Scanner::add_seed(const PathPosition& at, Eigen::Index mode) {
-  const auto instability_at = [&](double t) {
-    return instability(options_, path_.eigenvalues_at({at.step, t})[mode]);
-  };
-  const double behind = instability_at(at.t);
-  const Bisected place = bisected(at.t - 1.0 / samples_per_step, at.t, halvings,
-                                  [&](double t) { return !(instability_at(t) * behind > 0.0); });
-  const Sample there = sample({at.step, place.first_without});
-  const Complex s = there.s[mode];
-  if (!passes_zero(options_, s, scan_.s_ref)) return;
-  // The damping ratio of a real eigenvalue is 1 or -1, never the one asked for.
-  if (s.imag() == 0.0 && options_.damping_ratio) return;
-  scan_.seeds.push_back({there.place, Place::Unit(line_.along), kind_of(options_, s), s, there.equilibrium});
-}
-
-void Scanner::add_extremum(Eigen::Index mode, double before, double here, double behind) {
-  const double sign = here < 0.0 ? 1.0 : -1.0;
-  if (!(sign * (here - before) > 0.0 && sign * (here - behind) > 0.0)) return;
-  const Complex s = last_->s[mode];
-  if (options_.damping_ratio && s.imag() == 0.0) return;
-  const double least = scan_tolerance * std::max(std::abs(s), scan_.s_ref);
-  if (sign * (here - before) < least && sign * (here - behind) < least) return;
-  scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
-}
-
-/// Seeds where modes without damping coalesce, or a stiffness is lost. Notes folds of the equilibrium, whose
-/// curves are not followed; divergence seeds at a fold are removed.
-void Scanner::report(const TraceResult& result) {
-  for (const Event& event : result.events) {
-    const Place place = line_.at(window_.scaled(line_.along, event.p));
-    if (event.kind == EventKind::fold) {
-      scan_.findings.push_back({"folds of the equilibrium, which are not followed", window_.text(place)});
-      std::erase_if(scan_.seeds, [&place](const BoundarySeed& seed) {
-        return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
-      });
-    }
-    // Where nothing is damped, modes oscillate on one side of these: no growth changes its sign.
-    const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::branch_point;
-    if (options_.damping_ratio || event.direction == 0 || !may_be) continue;
-    const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];
-    const Place direction = Place::Unit(line_.along);
-    if (event.s == 0.0) {
-      scan_.seeds.push_back(
-          {place, direction, BoundaryKind::divergence, 0.0, {node.x.col(0), node.lambda.col(0), true}});
-      continue;
-    }
-    const Place beside =
-        place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
-    scan_.seeds.push_back(
-        {beside, direction, BoundaryKind::coalescence, event.s, {node.x.col(0), node.lambda.col(0), true}});
-  }
-}
 
 // Lengths are in the scaled window.
 constexpr int most_steps = 40;
