@@ -61,13 +61,13 @@ class Arm {
  public:
   Arm(const Window& window, const BoundaryFunction& function, const TraceOptions& options,
       const CurvePoint& seed, double sign, const OnPoint& on_point, RunCounts& counts)
-      : window_(window),
+      : points{seed},
+        window_(window),
         function_(function),
         options_(options),
         sign_(sign),
         on_point_(on_point),
-        counts_(counts),
-        points{seed} {}
+        counts_(counts) {}
 
   void follow() {
     StepControl control(window_.order(), first_step, longest_step, shortest_step);
@@ -75,15 +75,6 @@ class Arm {
     }
   }
 
- private:
-  const Window& window_;
-  const BoundaryFunction& function_;
-  const TraceOptions& options_;
-  double sign_;
-  const OnPoint& on_point_;
-  RunCounts& counts_;
-
- public:
   std::vector<CurvePoint> points;  ///< from the seed on
   /// Each step points in the direction of the curve. If `sign_` is negative, that is from the end of the arm
   /// towards the seed.
@@ -260,6 +251,13 @@ class Arm {
     const Place place = at(step, t).head<2>();
     return predict(last(), last().tangent.dot(place - last().place));
   }
+
+  const Window& window_;
+  const BoundaryFunction& function_;
+  const TraceOptions& options_;
+  double sign_;
+  const OnPoint& on_point_;
+  RunCounts& counts_;
 };
 
 /// A seed is accurate to the trace's tolerance. One that Newton's method moves farther than this, in the
@@ -278,9 +276,7 @@ Situation correct_seed(const Window& window, const BoundarySeed& seed, const Bou
   const PathProblem problem = window.at(seed.place);
   const PathPoint point =
       reduce_at(problem, problem.parameters[problem.traced], seed.equilibrium, Matrix(), counts);
-  Situation failed;
-  failed.status = point.status;
-  failed.message = point.message;
+  Situation failed{.status = point.status, .message = point.message};
   if (point.status != PointStatus::computed) return failed;
   Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   ++counts.spectra;

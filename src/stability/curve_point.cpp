@@ -58,6 +58,26 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
   }
 }
 
+/// Newton's method: adds the corrections `step(situation, gradients)` until they are rounding.
+template <class Step>
+Situation correct(const Window& window, const BoundaryFunction& function, PlaceGuess guess, RunCounts& counts,
+                  const Step& step) {
+  const Place start = guess.place;
+  double last = INFINITY;
+  for (int i = 0; i < most_corrections; ++i) {
+    Situation situation = compute_situation(window, function, guess, counts);
+    if (situation.status != PointStatus::computed) return situation;
+    const auto gradients = function_gradients(window, situation, function, counts);
+    const Place move = gradients ? step(situation, *gradients) : Place::Constant(INFINITY);
+    const double size = move.norm();
+    if (size <= settled || (size > 0.5 * last && last <= stagnated)) return situation;
+    if (!(size <= longest) || (situation.place + move - start).norm() > longest) break;
+    last = size;
+    guess = as_guess(situation, situation.place + move);
+  }
+  return {.status = PointStatus::mode_lost, .message = "no point of the curve was found nearby"};
+}
+
 }  // namespace
 
 std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunction& function,
@@ -124,33 +144,6 @@ PlaceGuess predict(const CurvePoint& point, double h) {
           {evaluate_series(point.mode.Z, h), evaluate_series(point.mode.Lambda, h), point.left},
           point.basis};
 }
-
-namespace {
-
-/// Newton's method: adds the corrections `step(situation, gradients)` until they are rounding.
-template <class Step>
-Situation correct(const Window& window, const BoundaryFunction& function, PlaceGuess guess, RunCounts& counts,
-                  const Step& step) {
-  const Place start = guess.place;
-  double last = INFINITY;
-  for (int i = 0; i < most_corrections; ++i) {
-    Situation situation = compute_situation(window, function, guess, counts);
-    if (situation.status != PointStatus::computed) return situation;
-    const auto gradients = function_gradients(window, situation, function, counts);
-    const Place move = gradients ? step(situation, *gradients) : Place::Constant(INFINITY);
-    const double size = move.norm();
-    if (size <= settled || (size > 0.5 * last && last <= stagnated)) return situation;
-    if (!(size <= longest) || (situation.place + move - start).norm() > longest) break;
-    last = size;
-    guess = as_guess(situation, situation.place + move);
-  }
-  Situation failed;
-  failed.status = PointStatus::mode_lost;
-  failed.message = "no point of the curve was found nearby";
-  return failed;
-}
-
-}  // namespace
 
 Situation correct_along(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
                         const Place& direction, RunCounts& counts) {

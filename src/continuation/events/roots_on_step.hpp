@@ -64,7 +64,6 @@ class RootsOnStep {
   bool is_closest(Complex root);
 
  private:
-  bool given_up() const;
   void search(double begin, double end);
   void add(Complex root);
 
