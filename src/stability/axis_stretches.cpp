@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -29,19 +28,12 @@ constexpr double infinite_size = 1e9;
 /// above the largest one at the start.
 constexpr double large_size = 1e4;
 
-/// How samples are judged: the accuracy of the dense output, and per mode whether it is left out, because its
-/// eigenvalue is zero throughout.
+/// How samples are judged: the accuracy of the dense output, and which modes are zero throughout, and left
+/// out.
 struct Judging {
   EigenvalueAccuracy accuracy;
-  std::vector<bool> left_out;
+  std::vector<Permanence> modes;
 };
-
-Judging judging_of(const RecordedPath& path, const EigenvalueAccuracy& accuracy) {
-  Judging judging{accuracy, {}};
-  for (const Permanence permanence : permanence_of_modes(path, accuracy))
-    judging.left_out.push_back(permanence == Permanence::zero);
-  return judging;
-}
 
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
   return std::max(std::abs(s), accuracy.reference);
@@ -74,9 +66,9 @@ AxisSample sample(const RecordedPath& path, const PathPosition& at, const Judgin
     const Vector doubts = uncertainty(path, block, at, s, judging.accuracy);
     for (std::size_t i = 0; i < block.modes.size(); ++i) {
       const int mode = block.modes[i];
-      if (judging.left_out[static_cast<std::size_t>(mode)]) continue;
       const double growth = s[mode].real();
-      if (!std::isfinite(growth)) continue;
+      if (judging.modes[static_cast<std::size_t>(mode)] == Permanence::zero || !std::isfinite(growth))
+        continue;
       const double doubt = doubts[static_cast<Eigen::Index>(i)];
       std::vector<int>& list = growth > doubt    ? result.unstable
                                : growth < -doubt ? result.decaying
@@ -373,7 +365,7 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
                                         const EigenvalueAccuracy& accuracy) {
   if (path.steps.empty()) return {};
   const std::vector<AxisCut> cuts = united_cuts(path, event_cuts(path, events, accuracy));
-  const Judging judging = judging_of(path, accuracy);
+  const Judging judging{accuracy, permanence_of_modes(path, accuracy)};
   std::vector<AxisStretch> stretches;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
     add_stretches(path, cuts[i], cuts[i + 1], judging, 0, stretches.size() + most_between_events, stretches);

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
 
 #include "continuation/archived_parts.hpp"
 #include "stability/corners.hpp"
-#include "stability/curve_start.hpp"
-#include "stability/extremum_walk.hpp"
 
 namespace eigentrail {
 namespace {
@@ -39,6 +36,28 @@ Members<4> archived(const CurveStart*);
 
 namespace {
 
+/// The four edges of the window first, then the inner lines.
+std::vector<ScanLine> scan_lines(int inner) {
+  std::vector<ScanLine> lines;
+  for (const int along : {0, 1}) {
+    for (const double held : {0.0, 1.0}) lines.push_back({along, held});
+  }
+  for (const int along : {0, 1}) {
+    for (int i = 1; i <= inner; ++i) lines.push_back({along, static_cast<double>(i) / (inner + 1)});
+  }
+  return lines;
+}
+
+/// One note per finding, with the number of its places and the first of them.
+std::vector<std::string> told(const std::map<std::string, std::vector<std::string>>& findings) {
+  std::vector<std::string> notes;
+  for (const auto& [what, places] : findings) {
+    const std::string count = places.size() == 1 ? "" : std::to_string(places.size()) + ", first ";
+    notes.push_back(what + ": " + count + places.front());
+  }
+  return notes;
+}
+
 /// The search, in rounds of pieces that are independent of each other: lines, extrema, starts of curves,
 /// curves. Every process that takes part goes through all rounds and finds the same.
 class BoundarySearch {
@@ -47,21 +66,183 @@ class BoundarySearch {
                  const BoundaryProgress& progress)
       : options_(options), progress_(progress), workers_(workers), window_(model, options) {}
 
-  std::vector<std::string> scan(const std::vector<std::size_t>& numbers);
-  BoundaryResult follow(const std::vector<std::string>& scans);
+  std::vector<std::string> scan(const std::vector<std::size_t>& numbers) {
+    const std::vector<ScanLine> lines = scan_lines(options_.lines);
+    return workers_.compute(
+        {"line", numbers,
+         [&](std::size_t line) { return packed(scan_line(window_, options_, lines[line])); }},
+        [&](std::size_t done, std::size_t, const std::string&) {
+          report(scanned * static_cast<double>(done) / static_cast<double>(numbers.size()));
+        });
+  }
+
+  BoundaryResult follow(const std::vector<std::string>& scans) {
+    if (take(scans)) {
+      walk();
+      start();
+      follow_curves();
+      finish();
+    }
+    return std::move(result_);
+  }
 
  private:
-  bool take(const std::vector<std::string>& scans);
-  void walk();
-  void start();
-  void follow_curves();
-  bool is_known(std::size_t seed, const FollowedCurve& curve) const;
-  bool is_known(std::size_t seed) const;
+  /// Takes over what the scans of all lines have found; false if no line could be begun.
+  bool take(const std::vector<std::string>& scans) {
+    result_.lines = static_cast<int>(scans.size());
+    std::vector<double> references;
+    std::string first_reason;
+    for (const std::string& bytes : scans) {
+      LineScan scan;
+      unpack(bytes, scan);
+      if (scan.started) references.push_back(scan.s_ref);
+      if (&bytes == &scans.front() && !scan.findings.empty()) first_reason = scan.findings.front().where;
+      for (const Finding& finding : scan.findings) note(finding);
+      result_.counts += scan.counts;
+      std::move(scan.seeds.begin(), scan.seeds.end(), std::back_inserter(seeds_));
+      std::move(scan.extrema.begin(), scan.extrema.end(), std::back_inserter(extrema_));
+    }
+    result_.seeds = static_cast<int>(seeds_.size());
+    if (references.empty()) {
+      result_.status = BoundaryStatus::no_equilibrium;
+      result_.message = first_reason;
+      return false;
+    }
+    std::nth_element(references.begin(),
+                     references.begin() + static_cast<std::ptrdiff_t>(references.size() / 2),
+                     references.end());
+    result_.s_ref = options_.trace.reference.value_or(references[references.size() / 2]);
+    window_.set_reference(result_.s_ref);
+    return true;
+  }
+
+  void walk() {
+    const auto walk_from = [this](std::size_t extremum) {
+      Walk walk;
+      walk.first = walk_to_boundary(window_, options_, extrema_[extremum], 0.5 * spacing(), walk.second);
+      return packed(walk);
+    };
+    const std::vector<std::string> found =
+        workers_.compute({"extremum", numbers_to(extrema_.size()), walk_from});
+    result_.walks = static_cast<int>(extrema_.size());
+    for (const std::string& bytes : found) {
+      Walk walk;
+      unpack(bytes, walk);
+      result_.counts += walk.second;
+      if (walk.first) seeds_.push_back(std::move(*walk.first));
+    }
+    report(walked);
+  }
+
+  /// The first point of a curve from each seed. Notes the seeds from which Newton's method fails.
+  void start() {
+    const auto start_from = [this](std::size_t seed) {
+      return packed(start_curve(window_, options_, seeds_[seed]));
+    };
+    const std::vector<std::string> found = workers_.compute({"start", numbers_to(seeds_.size()), start_from});
+    for (const std::string& bytes : found) {
+      CurveStart start;
+      unpack(bytes, start);
+      result_.counts += start.counts;
+      if (!start.failure.empty()) {
+        note({"changes of stability that could not be followed", start.failure});
+        fail("a change of stability could not be followed");
+      }
+      if (!start.remark.empty()) note({start.remark, window_.text(seeds_[starts_.size()].place)});
+      starts_.push_back(std::move(start.point));
+    }
+  }
+
+  /// Follows the curve of each seed, in order, that lies on no curve found before. Which curves are found
+  /// does not depend on those that other workers have followed in the meantime.
+  void follow_curves() {
+    std::map<std::size_t, FollowedCurve> ready;
+    for (std::size_t seed = 0; seed < seeds_.size(); ++seed) {
+      if (!starts_[seed] || is_known(seed)) continue;
+      if (!ready.contains(seed)) follow_at_once(next_seeds(seed, ready), ready);
+      accept(seed, std::move(ready.at(seed)));
+      ready.erase(seed);
+    }
+  }
+
+  bool is_known(std::size_t seed, const FollowedCurve& curve) const {
+    return curve.function.kind == seeds_[seed].kind &&
+           curve.passes(starts_[seed]->place, starts_[seed]->s, options_.trace.tolerance,
+                        window_.reference());
+  }
+
+  bool is_known(std::size_t seed) const {
+    return std::any_of(curves_.begin(), curves_.end(),
+                       [&](const FollowedCurve& curve) { return is_known(seed, curve); });
+  }
+
+  /// Seeds to follow at the same time: the first one, and others that are likely to lie on other curves, one
+  /// of each mode.
   std::vector<std::size_t> next_seeds(std::size_t first,
-                                      const std::map<std::size_t, FollowedCurve>& ready) const;
-  void follow_at_once(const std::vector<std::size_t>& seeds, std::map<std::size_t, FollowedCurve>& ready);
-  void accept(std::size_t seed, FollowedCurve curve);
-  void finish();
+                                      const std::map<std::size_t, FollowedCurve>& ready) const {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = first; i < seeds_.size() && chosen.size() < workers_.size(); ++i) {
+      if (!starts_[i] || ready.contains(i)) continue;
+      const bool same_mode = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
+        return seeds_[other].kind == seeds_[i].kind && starts_[other]->number == starts_[i]->number;
+      });
+      const bool likely_known =
+          std::any_of(ready.begin(), ready.end(), [&](const auto& one) { return is_known(i, one.second); });
+      if (i == first || (!same_mode && !likely_known && !is_known(i))) chosen.push_back(i);
+    }
+    return chosen;
+  }
+
+  void follow_at_once(const std::vector<std::size_t>& seeds, std::map<std::size_t, FollowedCurve>& ready) {
+    std::mutex mutex;
+    const double share =
+        walked + (1.0 - walked) * static_cast<double>(seeds.front()) / static_cast<double>(seeds_.size());
+    const OnPoint on_point = [&] {
+      const std::scoped_lock lock(mutex);
+      ++points_;
+      report(share);
+    };
+    const auto follow_from = [&](std::size_t seed) {
+      return packed(follow_curve(window_, function_of(seeds_[seed], options_), options_.trace, *starts_[seed],
+                                 on_point));
+    };
+    const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});
+    for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);
+  }
+
+  void accept(std::size_t seed, FollowedCurve curve) {
+    result_.islands += seeds_[seed].walked ? 1 : 0;
+    result_.rejected_steps += curve.rejected_steps;
+    result_.counts += curve.counts;
+    // Without a step it touches the window in a single point.
+    if (!curve.steps.empty()) curves_.push_back(std::move(curve));
+  }
+
+  void finish() {
+    FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
+    result_.corners = std::move(found.corners);
+    for (const Place& place : found.apart)
+      note({"intersections of curves that belong to different equilibria, which are no corners",
+            window_.text(place)});
+    result_.notes = told(findings_);
+    for (const FollowedCurve& followed : curves_) {
+      BoundaryCurve curve;
+      curve.kind = followed.function.kind;
+      for (const CurvePoint& point : followed.points) {
+        if ((point.flags & seed_flag) != 0) curve.mode = "mode " + std::to_string(point.number);
+        curve.points.push_back({window_.declared(point.place), window_.declared_direction(point.tangent),
+                                point.s, point.others, point.shape, point.path.x.col(0), point.flags});
+      }
+      for (const ChordStep& step : followed.steps) curve.steps.push_back(stored_step(window_, step));
+      std::tie(curve.begin, curve.begin_reason) = std::tie(followed.begin.how, followed.begin.reason);
+      std::tie(curve.end, curve.end_reason) = std::tie(followed.end.how, followed.end.reason);
+      for (const ArmEnd& end : {followed.begin, followed.end}) {
+        if (end.how == CurveEnd::lost) fail("a curve was lost: " + end.reason);
+      }
+      result_.curves.push_back(std::move(curve));
+    }
+  }
+
   void note(const Finding& finding) {
     std::vector<std::string>& places = findings_[finding.what];
     if (std::find(places.begin(), places.end(), finding.where) == places.end())
@@ -88,203 +269,6 @@ class BoundarySearch {
   std::map<std::string, std::vector<std::string>> findings_;  ///< per finding: the places where it holds
   int points_ = 0;
 };
-
-/// The four edges of the window first, then the inner lines.
-std::vector<ScanLine> scan_lines(int inner) {
-  std::vector<ScanLine> lines;
-  for (const int along : {0, 1}) {
-    for (const double held : {0.0, 1.0}) lines.push_back({along, held});
-  }
-  for (const int along : {0, 1}) {
-    for (int i = 1; i <= inner; ++i) lines.push_back({along, static_cast<double>(i) / (inner + 1)});
-  }
-  return lines;
-}
-
-std::vector<std::string> BoundarySearch::scan(const std::vector<std::size_t>& numbers) {
-  const std::vector<ScanLine> lines = scan_lines(options_.lines);
-  return workers_.compute(
-      {"line", numbers, [&](std::size_t line) { return packed(scan_line(window_, options_, lines[line])); }},
-      [&](std::size_t done, std::size_t, const std::string&) {
-        report(scanned * static_cast<double>(done) / static_cast<double>(numbers.size()));
-      });
-}
-
-/// Takes over what the scans of all lines have found; false if no line could be begun.
-bool BoundarySearch::take(const std::vector<std::string>& scans) {
-  result_.lines = static_cast<int>(scans.size());
-  std::vector<double> references;
-  std::string first_reason;
-  for (const std::string& bytes : scans) {
-    LineScan scan;
-    unpack(bytes, scan);
-    if (scan.started) references.push_back(scan.s_ref);
-    if (&bytes == &scans.front() && !scan.findings.empty()) first_reason = scan.findings.front().where;
-    for (const Finding& finding : scan.findings) note(finding);
-    result_.counts += scan.counts;
-    std::move(scan.seeds.begin(), scan.seeds.end(), std::back_inserter(seeds_));
-    std::move(scan.extrema.begin(), scan.extrema.end(), std::back_inserter(extrema_));
-  }
-  result_.seeds = static_cast<int>(seeds_.size());
-  if (references.empty()) {
-    result_.status = BoundaryStatus::no_equilibrium;
-    result_.message = first_reason;
-    return false;
-  }
-  std::nth_element(references.begin(),
-                   references.begin() + static_cast<std::ptrdiff_t>(references.size() / 2), references.end());
-  result_.s_ref = options_.trace.reference.value_or(references[references.size() / 2]);
-  window_.set_reference(result_.s_ref);
-  return true;
-}
-
-void BoundarySearch::walk() {
-  const auto walk_from = [this](std::size_t extremum) {
-    Walk walk;
-    walk.first = walk_to_boundary(window_, options_, extrema_[extremum], 0.5 * spacing(), walk.second);
-    return packed(walk);
-  };
-  const std::vector<std::string> found =
-      workers_.compute({"extremum", numbers_to(extrema_.size()), walk_from});
-  result_.walks = static_cast<int>(extrema_.size());
-  for (const std::string& bytes : found) {
-    Walk walk;
-    unpack(bytes, walk);
-    result_.counts += walk.second;
-    if (walk.first) seeds_.push_back(std::move(*walk.first));
-  }
-  report(walked);
-}
-
-/// The first point of a curve from each seed. Notes the seeds from which Newton's method fails.
-void BoundarySearch::start() {
-  const auto start_from = [this](std::size_t seed) {
-    return packed(start_curve(window_, options_, seeds_[seed]));
-  };
-  const std::vector<std::string> found = workers_.compute({"start", numbers_to(seeds_.size()), start_from});
-  for (const std::string& bytes : found) {
-    CurveStart start;
-    unpack(bytes, start);
-    result_.counts += start.counts;
-    if (!start.failure.empty()) {
-      note({"changes of stability that could not be followed", start.failure});
-      fail("a change of stability could not be followed");
-    }
-    if (!start.remark.empty()) note({start.remark, window_.text(seeds_[starts_.size()].place)});
-    starts_.push_back(std::move(start.point));
-  }
-}
-
-bool BoundarySearch::is_known(std::size_t seed, const FollowedCurve& curve) const {
-  return curve.function.kind == seeds_[seed].kind &&
-         curve.passes(starts_[seed]->place, starts_[seed]->s, options_.trace.tolerance, window_.reference());
-}
-
-bool BoundarySearch::is_known(std::size_t seed) const {
-  return std::any_of(curves_.begin(), curves_.end(),
-                     [&](const FollowedCurve& curve) { return is_known(seed, curve); });
-}
-
-/// Seeds to follow at the same time: the first one, and others that are likely to lie on other curves, one
-/// of each mode.
-std::vector<std::size_t> BoundarySearch::next_seeds(std::size_t first,
-                                                    const std::map<std::size_t, FollowedCurve>& ready) const {
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = first; i < seeds_.size() && chosen.size() < workers_.size(); ++i) {
-    if (!starts_[i] || ready.contains(i)) continue;
-    const bool same_mode = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
-      return seeds_[other].kind == seeds_[i].kind && starts_[other]->number == starts_[i]->number;
-    });
-    const bool likely_known =
-        std::any_of(ready.begin(), ready.end(), [&](const auto& one) { return is_known(i, one.second); });
-    if (i == first || (!same_mode && !likely_known && !is_known(i))) chosen.push_back(i);
-  }
-  return chosen;
-}
-
-void BoundarySearch::follow_at_once(const std::vector<std::size_t>& seeds,
-                                    std::map<std::size_t, FollowedCurve>& ready) {
-  std::mutex mutex;
-  const double share =
-      walked + (1.0 - walked) * static_cast<double>(seeds.front()) / static_cast<double>(seeds_.size());
-  const OnPoint on_point = [&] {
-    const std::scoped_lock lock(mutex);
-    ++points_;
-    report(share);
-  };
-  const FollowOptions options{options_.trace.tolerance, options_.trace.max_nodes};
-  const auto follow_from = [&](std::size_t seed) {
-    return packed(
-        follow_curve(window_, function_of(seeds_[seed], options_), options, *starts_[seed], on_point));
-  };
-  const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});
-  for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);
-}
-
-void BoundarySearch::accept(std::size_t seed, FollowedCurve curve) {
-  result_.islands += seeds_[seed].walked ? 1 : 0;
-  result_.rejected_steps += curve.rejected_steps;
-  result_.counts += curve.counts;
-  // Without a step it touches the window in a single point.
-  if (!curve.steps.empty()) curves_.push_back(std::move(curve));
-}
-
-/// Follows the curve of each seed, in order, that lies on no curve found before. Which curves are found does
-/// not depend on those that other workers have followed in the meantime.
-void BoundarySearch::follow_curves() {
-  std::map<std::size_t, FollowedCurve> ready;
-  for (std::size_t seed = 0; seed < seeds_.size(); ++seed) {
-    if (!starts_[seed] || is_known(seed)) continue;
-    if (!ready.contains(seed)) follow_at_once(next_seeds(seed, ready), ready);
-    accept(seed, std::move(ready.at(seed)));
-    ready.erase(seed);
-  }
-}
-
-/// One note per finding, with the number of its places and the first of them.
-std::vector<std::string> told(const std::map<std::string, std::vector<std::string>>& findings) {
-  std::vector<std::string> notes;
-  for (const auto& [what, places] : findings) {
-    const std::string count = places.size() == 1 ? "" : std::to_string(places.size()) + ", first ";
-    notes.push_back(what + ": " + count + places.front());
-  }
-  return notes;
-}
-
-void BoundarySearch::finish() {
-  FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
-  result_.corners = std::move(found.corners);
-  for (const Place& place : found.apart)
-    note({"intersections of curves that belong to different equilibria, which are no corners",
-          window_.text(place)});
-  result_.notes = told(findings_);
-  for (const FollowedCurve& followed : curves_) {
-    BoundaryCurve curve;
-    curve.kind = followed.function.kind;
-    for (const CurvePoint& point : followed.points) {
-      if ((point.flags & seed_flag) != 0) curve.mode = "mode " + std::to_string(point.number);
-      curve.points.push_back({window_.declared(point.place), window_.declared_direction(point.tangent),
-                              point.s, point.others, point.shape, point.path.x.col(0), point.flags});
-    }
-    for (const ChordStep& step : followed.steps) curve.steps.push_back(stored_step(window_, step));
-    std::tie(curve.begin, curve.begin_reason) = std::tie(followed.begin.how, followed.begin.reason);
-    std::tie(curve.end, curve.end_reason) = std::tie(followed.end.how, followed.end.reason);
-    for (const ArmEnd& end : {followed.begin, followed.end}) {
-      if (end.how == CurveEnd::lost) fail("a curve was lost: " + end.reason);
-    }
-    result_.curves.push_back(std::move(curve));
-  }
-}
-
-BoundaryResult BoundarySearch::follow(const std::vector<std::string>& scans) {
-  if (take(scans)) {
-    walk();
-    start();
-    follow_curves();
-    finish();
-  }
-  return std::move(result_);
-}
 
 }  // namespace
 

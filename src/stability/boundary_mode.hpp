@@ -52,13 +52,13 @@ struct PlaceGuess {
 /// A place with the computed equilibrium and block.
 struct Situation {
   PointStatus status = PointStatus::computed;
-  std::string message;  ///< reason when not computed
-  Place place;
-  PathPoint point;          ///< its invariant pairs are not computed
-  ReducedPencil pencil;     ///< order 0: that of the point, or K - g b c' for divergence
-  bool bordered = false;    ///< whether it is K - g b c'
-  InvariantPair pair;       ///< of `pencil`, in reduced coordinates
-  ComplexMatrix functions;  ///< of the block, order 0
+  std::string message = {};  ///< reason when not computed
+  Place place = {};
+  PathPoint point = {};          ///< its invariant pairs are not computed
+  ReducedPencil pencil = {};     ///< order 0: that of the point, or K - g b c' for divergence
+  bool bordered = false;         ///< whether it is K - g b c'
+  InvariantPair pair = {};       ///< of `pencil`, in reduced coordinates
+  ComplexMatrix functions = {};  ///< of the block, order 0
 };
 
 /// Solves the equilibrium and corrects the block at the place of a guess. A failure is reported in `status`

@@ -59,15 +59,15 @@ double first_negative(Value&& value) {
 /// The part of a curve on one side of its seed.
 class Arm {
  public:
-  Arm(const Window& window, const BoundaryFunction& function, const FollowOptions& options,
+  Arm(const Window& window, const BoundaryFunction& function, const TraceOptions& options,
       const CurvePoint& seed, double sign, const OnPoint& on_point, RunCounts& counts)
-      : window_(window),
+      : points{seed},
+        window_(window),
         function_(function),
         options_(options),
         sign_(sign),
         on_point_(on_point),
-        counts_(counts),
-        points{seed} {}
+        counts_(counts) {}
 
   void follow() {
     StepControl control(window_.order(), first_step, longest_step, shortest_step);
@@ -75,15 +75,6 @@ class Arm {
     }
   }
 
- private:
-  const Window& window_;
-  const BoundaryFunction& function_;
-  const FollowOptions& options_;
-  double sign_;
-  const OnPoint& on_point_;
-  RunCounts& counts_;
-
- public:
   std::vector<CurvePoint> points;  ///< from the seed on
   /// Each step points in the direction of the curve. If `sign_` is negative, that is from the end of the arm
   /// towards the seed.
@@ -95,26 +86,148 @@ class Arm {
   enum class Landing { nothing, landed, failed };
 
   /// Tries one step. Returns whether the arm goes on.
-  bool advance(StepControl& control);
+  bool advance(StepControl& control) {
+    const double h = control.propose(10.0);  // more than the diagonal of the window: no remaining range
+    const Situation there =
+        correct_along(window_, function_, predict(last(), sign_ * h), last().normal, counts_);
+    if (there.status != PointStatus::computed)
+      return reject(control, h, INFINITY, there.message, there.status);
+    std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
+    if (!next) return reject(control, h, INFINITY, "a series is not finite");
+    const std::optional<ChordStep> step = step_to(*next);
+    if (!step) return reject(control, h, bent_too_much, "the curve turns too sharply");
+    const double error = error_of(*step);
+    if (!(error <= 1.0)) return reject(control, h, error, "the series at both ends do not agree");
+    switch (land(*step)) {
+      case Landing::landed:
+        return false;
+      case Landing::failed:
+        return reject(control, h, INFINITY, "its end could not be located");
+      default:
+        break;
+    }
+    control.accept(h, error);
+    points.push_back(std::move(*next));
+    steps.push_back(*step);
+    if (folds() && h < shortest_beside_fold) return stop_at_fold();
+    on_point_();
+    if (static_cast<int>(points.size()) < options_.max_nodes) return true;
+    return stop(CurveEnd::lost,
+                "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");
+  }
+
   /// If the arm ends within the step (edge of the window, end of the curve, return to the seed), computes the
   /// first such end.
-  Landing land(const ChordStep& step);
+  Landing land(const ChordStep& step) {
+    const double edge = first_negative([&](double t) {
+      const Place place = at(step, t).head<2>();
+      constexpr double rounding = 1e-13;
+      return std::min(place.minCoeff(), 1.0 - place.maxCoeff()) + rounding;
+    });
+    const double last = first_negative([&](double t) {
+      const Eigen::Vector4d there = at(step, t);
+      return function_.distance_to_end(there[2], there[3]);
+    });
+    double seed = 2.0;
+    const CurvePoint& first = points.front();
+    if (points.size() > 1 &&
+        step_passes(step, first.place, first.s, options_.tolerance, window_.reference())) {
+      distance_from(step, first.place, seed);
+      if (sign_ < 0.0) seed = 1.0 - seed;
+    }
+    if (seed <= std::min(edge, last)) return seed > 1.0 ? Landing::nothing : close();
+    return edge <= last ? land_on_edge(step, edge) : land_on_end(step, last);
+  }
+
   /// Ends on the edge of the window that the step crosses at t.
-  Landing land_on_edge(const ChordStep& step, double t);
+  Landing land_on_edge(const ChordStep& step, double t) {
+    PlaceGuess guess = guess_at(step, t);
+    // `axis` is the coordinate that is at its bound; it is held there.
+    const Place bound = guess.place.array().round().cwiseMax(0.0).cwiseMin(1.0);
+    Eigen::Index axis = 0;
+    (guess.place - bound).cwiseAbs().minCoeff(&axis);
+    guess.place[axis] = bound[axis];
+    Situation there = correct_along(window_, function_, guess, Place::Unit(1 - axis), counts_);
+    if (there.status == PointStatus::computed && !Window::contains(there.place))
+      there.status = PointStatus::mode_lost;
+    const Landing landing = finish(there, edge_flag, CurveEnd::edge);
+    return landing == Landing::failed ? cut_on_edge(step, t, guess) : landing;
+  }
+
   /// Ends on the edge with the dense output of the step instead of Newton's method. Needed where g vanishes
   /// all along the edge, as for a system without damping: g = 0 then does not determine the place.
-  Landing cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess);
+  Landing cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess) {
+    const Situation there = compute_situation(window_, function_, guess, counts_);
+    if (there.status != PointStatus::computed) return Landing::failed;
+    const Matrix series = step.series(sign_ > 0.0 ? t : 1.0 - t);
+    if (!append(point_on_dense_curve(window_, function_, there, series, last(), counts_)))
+      return Landing::failed;
+    points.back().flags = edge_flag;
+    stop(CurveEnd::edge);
+    return Landing::landed;
+  }
+
   /// Ends at the Takens-Bogdanov point near t, where tau = delta = 0.
-  Landing land_on_end(const ChordStep& step, double t);
+  Landing land_on_end(const ChordStep& step, double t) {
+    return finish(correct_to_end(window_, function_, guess_at(step, t), counts_), takens_bogdanov_flag,
+                  CurveEnd::takens_bogdanov);
+  }
+
   /// Ends by joining the seed.
-  Landing close();
+  Landing close() {
+    // If the last point is very close to the seed compared with the last step, it is removed: the step from
+    // it to the seed would be too short.
+    if ((points.front().place - last().place).norm() < 1e-3 * steps.back().length && points.size() > 2) {
+      points.pop_back();
+      steps.pop_back();
+    }
+    if (!append(points.front())) return Landing::failed;
+    stop(CurveEnd::closed);
+    return Landing::landed;
+  }
+
   /// Appends the last point, unless the arm is there already, and sets its flag and the kind of end.
-  Landing finish(const Situation& there, PointFlag flag, CurveEnd how);
+  Landing finish(const Situation& there, PointFlag flag, CurveEnd how) {
+    if (there.status != PointStatus::computed) return Landing::failed;
+    if ((there.place - last().place).norm() > same_place) {
+      std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
+      if (!next) return Landing::failed;
+      if (flag == takens_bogdanov_flag) {
+        // The double eigenvalue is zero. QZ gives it to half the digits only, so |s| and the comparison with
+        // the other modes would be wrong.
+        next->s = 0.0;
+        next->others = last().others;
+      }
+      if (!append(std::move(*next))) return Landing::failed;
+    }
+    points.back().flags |= flag;
+    stop(how);
+    return Landing::landed;
+  }
+
   /// Appends a point and the step to it; false if the step is not accurate enough.
-  bool append(CurvePoint next);
+  bool append(CurvePoint next) {
+    const std::optional<ChordStep> step = step_to(next);
+    if (!step || !(error_of(*step) <= 1.0)) return false;
+    points.push_back(std::move(next));
+    steps.push_back(*step);
+    return true;
+  }
+
   /// Shortens the step. Returns false, with the reason of the end set, if it is too short already.
   bool reject(StepControl& control, double h, double error, const std::string& why,
-              PointStatus status = PointStatus::mode_lost);
+              PointStatus status = PointStatus::mode_lost) {
+    ++rejected;
+    control.reject(h, error);
+    if (!control.exhausted()) return true;
+    const std::string where = window_.text(last().place);
+    if (folds()) return stop_at_fold();
+    if (status == PointStatus::no_equilibrium)
+      return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
+    if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
+      return stop(CurveEnd::exceptional_point, "its mode coalesces with another one near " + where);
+    return stop(CurveEnd::lost, "the step became too small at " + where + ": " + why);
+  }
 
   bool stop(CurveEnd how, std::string why = {}) {
     end = {how, std::move(why)};
@@ -138,138 +251,96 @@ class Arm {
     const Place place = at(step, t).head<2>();
     return predict(last(), last().tangent.dot(place - last().place));
   }
+
+  const Window& window_;
+  const BoundaryFunction& function_;
+  const TraceOptions& options_;
+  double sign_;
+  const OnPoint& on_point_;
+  RunCounts& counts_;
 };
 
-bool Arm::reject(StepControl& control, double h, double error, const std::string& why, PointStatus status) {
-  ++rejected;
-  control.reject(h, error);
-  if (!control.exhausted()) return true;
-  const std::string where = window_.text(last().place);
-  if (folds()) return stop_at_fold();
-  if (status == PointStatus::no_equilibrium)
-    return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
-  if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
-    return stop(CurveEnd::exceptional_point, "its mode coalesces with another one near " + where);
-  return stop(CurveEnd::lost, "the step became too small at " + where + ": " + why);
-}
+/// A seed is accurate to the trace's tolerance. One that Newton's method moves farther than this, in the
+/// scaled window, is rejected: Newton found another boundary.
+constexpr double longest_correction = 0.03;
+/// If |grad g| over the scaled window is less than this multiple of |s| (divergence: of the norm of K), g
+/// counts as constant: its zero set is no curve.
+constexpr double flat = 1e-8;
+/// Relative distance of two eigenvalues that are one, with a margin on the root of rounding.
+constexpr double double_root = 1e-6;
 
-bool Arm::advance(StepControl& control) {
-  const double h = control.propose(10.0);  // more than the diagonal of the window: no remaining range
-  const Situation there =
-      correct_along(window_, function_, predict(last(), sign_ * h), last().normal, counts_);
-  if (there.status != PointStatus::computed) return reject(control, h, INFINITY, there.message, there.status);
-  std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
-  if (!next) return reject(control, h, INFINITY, "a series is not finite");
-  const std::optional<ChordStep> step = step_to(*next);
-  if (!step) return reject(control, h, bent_too_much, "the curve turns too sharply");
-  const double error = error_of(*step);
-  if (!(error <= 1.0)) return reject(control, h, error, "the series at both ends do not agree");
-  switch (land(*step)) {
-    case Landing::landed:
-      return false;
-    case Landing::failed:
-      return reject(control, h, INFINITY, "its end could not be located");
-    default:
-      break;
+/// The point of the boundary near a seed, by Newton's method. The first attempt moves along the line on which
+/// the seed was found, so a seed on an edge stays there. Further attempts move along grad g, P and Q.
+Situation correct_seed(const Window& window, const BoundarySeed& seed, const BoundaryFunction& function,
+                       RunCounts& counts) {
+  const PathProblem problem = window.at(seed.place);
+  const PathPoint point =
+      reduce_at(problem, problem.parameters[problem.traced], seed.equilibrium, Matrix(), counts);
+  Situation failed{.status = point.status, .message = point.message};
+  if (point.status != PointStatus::computed) return failed;
+  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+  ++counts.spectra;
+  failed.status = PointStatus::mode_lost;
+  if (spectrum.modes.empty()) return failed;
+  std::sort(spectrum.modes.begin(), spectrum.modes.end(),
+            [&](const auto& a, const auto& b) { return std::abs(a.s - seed.s) < std::abs(b.s - seed.s); });
+  if (seed.kind != BoundaryKind::divergence && spectrum.modes[0].s.imag() == 0.0) return failed;
+  if (seed.kind == BoundaryKind::coalescence && spectrum.modes.size() < 2) return failed;
+  const PlaceGuess guess{seed.place,
+                         {point.equilibrium.x, point.equilibrium.lambda, true},
+                         starting_block(seed.kind, point, spectrum.modes),
+                         point.basis.T[0]};
+  const Place gradient_itself = Place::Zero();  // correct_along takes zero as the direction of grad g
+  for (const Place& direction :
+       {seed.direction, gradient_itself, Place(Place::UnitX()), Place(Place::UnitY())}) {
+    const Situation there = correct_along(window, function, guess, direction, counts);
+    const bool near = there.status == PointStatus::computed && Window::contains(there.place) &&
+                      (there.place - seed.place).norm() < longest_correction;
+    if (near) return there;
+    failed.message = there.status == PointStatus::computed
+                         ? "Newton's method left for " + window.text(there.place)
+                         : there.message;
   }
-  control.accept(h, error);
-  points.push_back(std::move(*next));
-  steps.push_back(*step);
-  if (folds() && h < shortest_beside_fold) return stop_at_fold();
-  on_point_();
-  if (static_cast<int>(points.size()) < options_.max_points) return true;
-  return stop(CurveEnd::lost, "stopped after " + std::to_string(points.size()) + " points; raise max_nodes");
-}
-
-Arm::Landing Arm::land(const ChordStep& step) {
-  const double edge = first_negative([&](double t) {
-    const Place place = at(step, t).head<2>();
-    constexpr double rounding = 1e-13;
-    return std::min(place.minCoeff(), 1.0 - place.maxCoeff()) + rounding;
-  });
-  const double last = first_negative([&](double t) {
-    const Eigen::Vector4d there = at(step, t);
-    return function_.distance_to_end(there[2], there[3]);
-  });
-  double seed = 2.0;
-  const CurvePoint& first = points.front();
-  if (points.size() > 1 && step_passes(step, first.place, first.s, options_.tolerance, window_.reference())) {
-    distance_from(step, first.place, seed);
-    if (sign_ < 0.0) seed = 1.0 - seed;
-  }
-  if (seed <= std::min(edge, last)) return seed > 1.0 ? Landing::nothing : close();
-  return edge <= last ? land_on_edge(step, edge) : land_on_end(step, last);
-}
-
-Arm::Landing Arm::finish(const Situation& there, PointFlag flag, CurveEnd how) {
-  if (there.status != PointStatus::computed) return Landing::failed;
-  if ((there.place - last().place).norm() > same_place) {
-    std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
-    if (!next) return Landing::failed;
-    if (flag == takens_bogdanov_flag) {
-      // The double eigenvalue is zero. QZ gives it to half the digits only, so |s| and the comparison with
-      // the other modes would be wrong.
-      next->s = 0.0;
-      next->others = last().others;
-    }
-    if (!append(std::move(*next))) return Landing::failed;
-  }
-  points.back().flags |= flag;
-  stop(how);
-  return Landing::landed;
-}
-
-bool Arm::append(CurvePoint next) {
-  const std::optional<ChordStep> step = step_to(next);
-  if (!step || !(error_of(*step) <= 1.0)) return false;
-  points.push_back(std::move(next));
-  steps.push_back(*step);
-  return true;
-}
-
-Arm::Landing Arm::land_on_edge(const ChordStep& step, double t) {
-  PlaceGuess guess = guess_at(step, t);
-  // `axis` is the coordinate that is at its bound; it is held there.
-  const Place bound = guess.place.array().round().cwiseMax(0.0).cwiseMin(1.0);
-  Eigen::Index axis = 0;
-  (guess.place - bound).cwiseAbs().minCoeff(&axis);
-  guess.place[axis] = bound[axis];
-  Situation there = correct_along(window_, function_, guess, Place::Unit(1 - axis), counts_);
-  if (there.status == PointStatus::computed && !Window::contains(there.place))
-    there.status = PointStatus::mode_lost;
-  const Landing landing = finish(there, edge_flag, CurveEnd::edge);
-  return landing == Landing::failed ? cut_on_edge(step, t, guess) : landing;
-}
-
-Arm::Landing Arm::cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess) {
-  const Situation there = compute_situation(window_, function_, guess, counts_);
-  if (there.status != PointStatus::computed) return Landing::failed;
-  const Matrix series = step.series(sign_ > 0.0 ? t : 1.0 - t);
-  if (!append(point_on_dense_curve(window_, function_, there, series, last(), counts_)))
-    return Landing::failed;
-  points.back().flags = edge_flag;
-  stop(CurveEnd::edge);
-  return Landing::landed;
-}
-
-Arm::Landing Arm::land_on_end(const ChordStep& step, double t) {
-  return finish(correct_to_end(window_, function_, guess_at(step, t), counts_), takens_bogdanov_flag,
-                CurveEnd::takens_bogdanov);
-}
-
-Arm::Landing Arm::close() {
-  // If the last point is very close to the seed compared with the last step, it is removed: the step from it
-  // to the seed would be too short.
-  if ((points.front().place - last().place).norm() < 1e-3 * steps.back().length && points.size() > 2) {
-    points.pop_back();
-    steps.pop_back();
-  }
-  if (!append(points.front())) return Landing::failed;
-  stop(CurveEnd::closed);
-  return Landing::landed;
+  return failed;
 }
 
 }  // namespace
+
+BoundaryFunction function_of(const BoundarySeed& seed, const BoundaryOptions& options) {
+  return {seed.kind, options.damping_ratio.value_or(0.0)};
+}
+
+CurveStart start_curve(const Window& window, const BoundaryOptions& options, const BoundarySeed& seed) {
+  CurveStart start;
+  const BoundaryFunction function = function_of(seed, options);
+  const Situation there = correct_seed(window, seed, function, start.counts);
+  if (there.status != PointStatus::computed) {
+    start.failure = boundary_name(seed.kind) + " near " + window.text(seed.place) + ": " + there.message;
+    return start;
+  }
+  const double tau = there.functions(0, 0).real();
+  const double delta = there.functions.rows() > 1 ? there.functions(1, 0).real() : 0.0;
+  // tau = 0 with two real eigenvalues of opposite sign (flutter), or tau of the wrong sign (damping ratio).
+  if (function.distance_to_end(tau, delta) <= 0.0) return start;
+  const auto gradients = function_gradients(window, there, function, start.counts);
+  const double size = seed.kind == BoundaryKind::divergence
+                          ? there.pencil.K[0].norm()
+                          : std::max(there.pair.Lambda.norm(), window.reference());
+  if (!gradients || !(gradients->row(function.row()).norm() > flat * size)) return start;
+  start.point = expand_curve(window, function, there, Place::Zero(), start.counts);
+  if (!start.point) return start;
+  // Where two undamped modes meet, Re s is zero on one side at all places: they have a seed of their own.
+  const double scale = std::max(std::abs(start.point->s), window.reference());
+  if (seed.kind == BoundaryKind::flutter && start.point->gap <= double_root * scale) start.point.reset();
+  if (seed.kind != BoundaryKind::coalescence) return start;
+  // Damped modes do not meet; the curve would go on where their mean is no mode.
+  if (start.point->functions.row(0).cwiseAbs().maxCoeff() <= flat * size) return start;
+  start.point.reset();
+  start.remark =
+      "onset of flutter without damping, beside which modes are damped; as damping vanishes, the "
+      "boundary may have another limit";
+  return start;
+}
 
 bool FollowedCurve::passes(const Place& place, Complex s, double tolerance, double s_ref) const {
   return std::any_of(steps.begin(), steps.end(),
@@ -277,7 +348,7 @@ bool FollowedCurve::passes(const Place& place, Complex s, double tolerance, doub
 }
 
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
-                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point) {
+                           const TraceOptions& options, CurvePoint seed, const OnPoint& on_point) {
   seed.flags |= seed_flag;
   FollowedCurve curve;
   curve.function = function;

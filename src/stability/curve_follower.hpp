@@ -1,16 +1,26 @@
-// Follows a boundary from a starting point (seed) in both directions.
+// Finds the first point of a boundary, its seed, from a place where stability changes, and follows the
+// boundary from there in both directions.
 #pragma once
 
 #include <functional>
 
 #include "stability/curve_step.hpp"
+#include "stability/line_scan.hpp"
 
 namespace eigentrail {
 
-struct FollowOptions {
-  double tolerance = 1e-6;  ///< of the place in the scaled window, and of s as in TraceOptions
-  int max_points = 100000;  ///< largest number of points of a curve in each direction from the seed
+struct CurveStart {
+  std::optional<CurvePoint> point;  ///< empty if no curve begins here
+  std::string failure;              ///< why Newton's method failed, in words; empty if it did not
+  std::string remark;               ///< what the user should know of the place; empty without
+  RunCounts counts;
 };
+
+/// The function whose zeros are the curve through a seed.
+BoundaryFunction function_of(const BoundarySeed& seed, const BoundaryOptions& options);
+
+/// Corrects a seed by Newton's method and expands the curve through it.
+CurveStart start_curve(const Window& window, const BoundaryOptions& options, const BoundarySeed& seed);
 
 /// How a curve ends, and why in words; empty if the end needs none.
 struct ArmEnd {
@@ -34,8 +44,9 @@ struct FollowedCurve {
 /// Called after every point.
 using OnPoint = std::function<void()>;
 
-/// Follows the curve through `seed` in both directions until it ends or closes.
+/// Follows the curve through `seed` in both directions until it ends or closes. Of the options: `tolerance`,
+/// of s and of the place in the scaled window, and `max_nodes`, in each direction from the seed.
 FollowedCurve follow_curve(const Window& window, const BoundaryFunction& function,
-                           const FollowOptions& options, CurvePoint seed, const OnPoint& on_point);
+                           const TraceOptions& options, CurvePoint seed, const OnPoint& on_point);
 
 }  // namespace eigentrail

@@ -58,6 +58,26 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
   }
 }
 
+/// Newton's method: adds the corrections `step(situation, gradients)` until they are rounding.
+template <class Step>
+Situation correct(const Window& window, const BoundaryFunction& function, PlaceGuess guess, RunCounts& counts,
+                  const Step& step) {
+  const Place start = guess.place;
+  double last = INFINITY;
+  for (int i = 0; i < most_corrections; ++i) {
+    Situation situation = compute_situation(window, function, guess, counts);
+    if (situation.status != PointStatus::computed) return situation;
+    const auto gradients = function_gradients(window, situation, function, counts);
+    const Place move = gradients ? step(situation, *gradients) : Place::Constant(INFINITY);
+    const double size = move.norm();
+    if (size <= settled || (size > 0.5 * last && last <= stagnated)) return situation;
+    if (!(size <= longest) || (situation.place + move - start).norm() > longest) break;
+    last = size;
+    guess = as_guess(situation, situation.place + move);
+  }
+  return {.status = PointStatus::mode_lost, .message = "no point of the curve was found nearby"};
+}
+
 }  // namespace
 
 std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunction& function,
@@ -125,54 +145,23 @@ PlaceGuess predict(const CurvePoint& point, double h) {
           point.basis};
 }
 
-namespace {
-
-/// Newton's method: adds the corrections `step(situation)` until they are rounding. An empty correction means
-/// failure.
-template <class Step>
-Situation correct(const Window& window, const BoundaryFunction& function, PlaceGuess guess, RunCounts& counts,
-                  Step&& step) {
-  const Place start = guess.place;
-  double last = INFINITY;
-  for (int i = 0; i < most_corrections; ++i) {
-    Situation situation = compute_situation(window, function, guess, counts);
-    if (situation.status != PointStatus::computed) return situation;
-    const std::optional<Place> move = step(situation);
-    const double size = move ? move->norm() : INFINITY;
-    if (size <= settled || (size > 0.5 * last && last <= stagnated)) return situation;
-    if (!(size <= longest) || (situation.place + *move - start).norm() > longest) break;
-    last = size;
-    guess = as_guess(situation, situation.place + *move);
-  }
-  Situation failed;
-  failed.status = PointStatus::mode_lost;
-  failed.message = "no point of the curve was found nearby";
-  return failed;
-}
-
-}  // namespace
-
 Situation correct_along(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
                         const Place& direction, RunCounts& counts) {
-  return correct(window, function, std::move(guess), counts,
-                 [&](const Situation& situation) -> std::optional<Place> {
-                   const auto gradients = function_gradients(window, situation, function, counts);
-                   if (!gradients) return std::nullopt;
-                   const Place slope = gradient(function, situation.functions, *gradients);
-                   const Place along = direction.isZero(0.0) ? slope : direction;
-                   return -function.series(situation.functions)[0] / slope.dot(along) * along;
-                 });
+  const auto step = [&](const Situation& situation, const Matrix& gradients) -> Place {
+    const Place slope = gradient(function, situation.functions, gradients);
+    const Place along = direction.isZero(0.0) ? slope : direction;
+    return -function.series(situation.functions)[0] / slope.dot(along) * along;
+  };
+  return correct(window, function, std::move(guess), counts, step);
 }
 
 Situation correct_to_end(const Window& window, const BoundaryFunction& function, PlaceGuess guess,
                          RunCounts& counts) {
-  return correct(window, function, std::move(guess), counts,
-                 [&](const Situation& situation) -> std::optional<Place> {
-                   const auto gradients = function_gradients(window, situation, function, counts);
-                   if (!gradients) return std::nullopt;
-                   const Matrix inverse = gradients->inverse();
-                   return Place(-inverse * situation.functions.col(0).real());
-                 });
+  const auto step = [&](const Situation& situation, const Matrix& gradients) -> Place {
+    const Matrix inverse = gradients.inverse();
+    return -inverse * situation.functions.col(0).real();
+  };
+  return correct(window, function, std::move(guess), counts, step);
 }
 
 }  // namespace eigentrail

@@ -36,6 +36,23 @@ HermiteInterpolant interpolant(double length, const Matrix& left, const Matrix& 
   return {length, left.leftCols(count).cast<Complex>(), right.leftCols(count).cast<Complex>()};
 }
 
+/// Values of t at which P (row 0) or Q (row 1) has a turning point, by bisection of the derivative between
+/// samples.
+std::vector<double> turning_points(const HermiteInterpolant& dense, Eigen::Index row) {
+  constexpr int samples = 16;
+  constexpr int halvings = 40;
+  const auto slope = [&](double t) { return dense.slope(t)[row].real(); };
+  std::vector<double> found;
+  for (int i = 0; i < samples; ++i) {
+    const double from = static_cast<double>(i) / samples;
+    const double to = (i + 1.0) / samples;
+    const double sign = slope(from);
+    if (sign * slope(to) >= 0.0) continue;
+    found.push_back(bisected(from, to, halvings, [&](double t) { return slope(t) * sign > 0.0; }).last);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<ChordStep> make_chord_step(const CurvePoint& left, const CurvePoint& right) {
@@ -104,27 +121,6 @@ BoundaryStep boundary_step(double length, const double* series, Eigen::Index ord
 Eigen::Vector4d evaluate_step(const BoundaryStep& step, double t) {
   return interpolant(step.length, step.left, step.right, step.left.cols())(t).real();
 }
-
-namespace {
-
-/// Values of t at which P (row 0) or Q (row 1) has a turning point, by bisection of the derivative between
-/// samples.
-std::vector<double> turning_points(const HermiteInterpolant& dense, Eigen::Index row) {
-  constexpr int samples = 16;
-  constexpr int halvings = 40;
-  const auto slope = [&](double t) { return dense.slope(t)[row].real(); };
-  std::vector<double> found;
-  for (int i = 0; i < samples; ++i) {
-    const double from = static_cast<double>(i) / samples;
-    const double to = (i + 1.0) / samples;
-    const double sign = slope(from);
-    if (sign * slope(to) >= 0.0) continue;
-    found.push_back(bisected(from, to, halvings, [&](double t) { return slope(t) * sign > 0.0; }).last);
-  }
-  return found;
-}
-
-}  // namespace
 
 std::pair<Place, Place> BoundaryCurve::extent() const {
   Place low = Place::Constant(INFINITY);

@@ -1,5 +1,9 @@
-// Searches one line of the window for changes of stability, and for extrema of the instability from which a
-// change of stability beside the line may be reached.
+// Searches one line of the window for changes of stability, and for extrema of the instability. From these a
+// change of stability beside the line may be reached: an extremum is followed over the plane, to one in both
+// parameters or to the boundary if it lies on the way.
+//
+// The instability of a mode is Re s, or Re s + ratio |s| if a damping ratio is asked for. It is zero on the
+// boundary, and positive if the mode is unstable or less damped than asked.
 #pragma once
 
 #include <string>
@@ -52,15 +56,11 @@ struct LineScan {
 /// as well.
 LineScan scan_line(const Window& window, const BoundaryOptions& options, const ScanLine& line);
 
-/// The kind of a boundary on which a mode has the eigenvalue s.
-BoundaryKind kind_of(const BoundaryOptions& options, Complex s);
-
-/// Instability of a mode: Re s, or Re s + ratio |s| if a damping ratio is asked for. Zero on the boundary,
-/// positive if the mode is unstable or less damped than asked.
-double instability(const BoundaryOptions& options, Complex s);
-
-/// Whether the instability of a mode that changes its sign here passes through zero. If not, it jumps: the
-/// eigenvalue passes through infinity, or another mode has been taken for this one.
-bool passes_zero(const BoundaryOptions& options, Complex s, double s_ref);
+/// Maximizes (start.sign = 1) or minimizes the instability of a mode over both parameters, by Newton's method
+/// with second derivatives in a trust region of at most `radius` (scaled). Returns a seed if the instability
+/// changes its sign on the way; empty if an extremum or the edge of the window is reached before, or the
+/// mode cannot be computed.
+std::optional<BoundarySeed> walk_to_boundary(const Window& window, const BoundaryOptions& options,
+                                             const LineExtremum& start, double radius, RunCounts& counts);
 
 }  // namespace eigentrail

@@ -19,12 +19,10 @@ PathProblem problem_of(const Model& model, const BoundaryOptions& options) {
 /// Properties that hold while both parameters change, from those for each parameter alone.
 Structure united(const Structure& a, const Structure& b) {
   Structure both = a;
-  both.constant_mass = a.constant_mass && b.constant_mass;
-  both.constant_damping = a.constant_damping && b.constant_damping;
-  both.constant_stiffness = a.constant_stiffness && b.constant_stiffness;
-  both.constant_constraints = a.constant_constraints && b.constant_constraints;
-  both.fixed_equilibrium = a.fixed_equilibrium && b.fixed_equilibrium;
-  both.known_equilibrium = a.known_equilibrium && b.known_equilibrium;
+  for (bool Structure::*holds :
+       {&Structure::constant_mass, &Structure::constant_damping, &Structure::constant_stiffness,
+        &Structure::constant_constraints, &Structure::fixed_equilibrium, &Structure::known_equilibrium})
+    both.*holds = a.*holds && b.*holds;
   return both;
 }
 

@@ -1,6 +1,6 @@
 // The number of growing eigenvalues at both ends of a step, against the events on it. s^2 - p s + 1: the pair
 // grows from p = 0 on.
-#include "continuation/events/growth_check.hpp"
+#include "continuation/events/step_checks.hpp"
 
 #include <gtest/gtest.h>
 

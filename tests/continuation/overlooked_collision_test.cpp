@@ -1,6 +1,6 @@
 // Numbers of real eigenvalues at both ends of a step, for the pair of s^2 + s + 1 - p, which becomes real at
 // p = 0.75.
-#include "continuation/events/overlooked_collision.hpp"
+#include "continuation/events/step_checks.hpp"
 
 #include <gtest/gtest.h>
 

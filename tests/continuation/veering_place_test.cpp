@@ -1,5 +1,5 @@
 // Veerings that were seen in series, at the place that the pencil has.
-#include "continuation/events/veering_place.hpp"
+#include "continuation/events/exceptional_point.hpp"
 
 #include <gtest/gtest.h>
 

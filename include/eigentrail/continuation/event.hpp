@@ -33,10 +33,10 @@ struct EventOfCopy {
 
 struct Event {
   EventKind kind = EventKind::flutter;
-  double p = 0.0;           ///< value of the traced parameter, in its unit
-  Complex s;                ///< the eigenvalue there, 1/s; the mean of all that coincide
-  std::vector<int> modes;   ///< numbers of the modes, from 0, ascending
-  double half_width = 0.0;  ///< veering: distance of the exceptional point from the real parameter axis
+  double p = 0.0;               ///< value of the traced parameter, in its unit
+  Complex s = {};               ///< the eigenvalue there, 1/s; the mean of all that coincide
+  std::vector<int> modes = {};  ///< numbers of the modes, from 0, ascending
+  double half_width = 0.0;      ///< veering: distance of the exceptional point from the real parameter axis
   /// Collision of m eigenvalues: s = s* + puiseux (p - p*)^(1/m) + ..., with all m branches of the root; zero
   /// if not known.
   Complex puiseux = {};

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "continuation/events/meeting_resolution.hpp"
+#include "continuation/tracks/members.hpp"
 #include "core/matrix_series.hpp"
 #include "eigentrail/core/chebyshev.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -102,6 +102,23 @@ bool tells_apart(const std::vector<ComplexMatrix>& part, double place, double wi
          count_different(eigenvalues(evaluate_series(part, place + 2.0 * width))) == different;
 }
 
+/// Lambda of a block from its functions.
+ComplexMatrix block_of(const ComplexVector& functions) {
+  const Eigen::Index k = block_size(functions.size());
+  return functions.reshaped(k, k);
+}
+
+ComplexMatrix centred_block(const HermiteInterpolant& functions, double t) {
+  return centred(block_of(functions(t)));
+}
+
+std::vector<ComplexMatrix> series_at(const HermiteInterpolant& functions, double t) {
+  const ComplexMatrix series = functions.series(t, functions.degree());
+  std::vector<ComplexMatrix> Lambda;
+  for (Eigen::Index k = 0; k < series.cols(); ++k) Lambda.push_back(block_of(series.col(k)));
+  return Lambda;
+}
+
 }  // namespace
 
 std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, double lambda, double reach) {
@@ -133,11 +150,7 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
   const auto slope_of = [&](const auto& function, double w) {
     return (function(*root + w) - function(*root - w)) / (2.0 * w);
   };
-  Meeting meeting;
-  meeting.found = true;
-  meeting.kind = EventKind::collision;
-  meeting.offset = *root;
-  meeting.hidden_within = width;
+  Meeting meeting{.found = true, .offset = *root, .hidden_within = width};
   if (size > 2 && growth > nearer_to_a_square_root) {
     meeting.cycle = 2;
     const auto mean_square = [&](double h) {
@@ -155,31 +168,9 @@ std::optional<Meeting> common_collision(const std::vector<ComplexMatrix>& part, 
 Meeting meeting_of_all(const Track& track, double reach) {
   const std::vector<ComplexMatrix>& Lambda = track.series.Lambda;
   Meeting meeting = common_collision(Lambda, rounding_of(track, Lambda).lambda, reach).value_or(Meeting{});
-  meeting.members.resize(static_cast<std::size_t>(track.size()));
-  std::iota(meeting.members.begin(), meeting.members.end(), 0);
+  meeting.members = other_members(track.size(), {});
   return meeting;
 }
-
-namespace {
-
-/// Lambda of a block from its functions.
-ComplexMatrix block_of(const ComplexVector& functions) {
-  const Eigen::Index k = block_size(functions.size());
-  return functions.reshaped(k, k);
-}
-
-ComplexMatrix centred_block(const HermiteInterpolant& functions, double t) {
-  return centred(block_of(functions(t)));
-}
-
-std::vector<ComplexMatrix> series_at(const HermiteInterpolant& functions, double t) {
-  const ComplexMatrix series = functions.series(t, functions.degree());
-  std::vector<ComplexMatrix> Lambda;
-  for (Eigen::Index k = 0; k < series.cols(); ++k) Lambda.push_back(block_of(series.col(k)));
-  return Lambda;
-}
-
-}  // namespace
 
 std::vector<PlaceOnStep> common_collisions_on_step(const HermiteInterpolant& functions, double lambda) {
   // A root of a power sum starts the search for the place: a few digits of it suffice.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/tracks/members.hpp"
 #include "core/bisection.hpp"
@@ -98,15 +97,11 @@ class TrackScan {
   void look_at_meeting(double last) {
     const Track& end = step_.right.tracks[index_];
     const auto nearest_met = [&](int i) {
-      double least = std::numeric_limits<double>::infinity();
-      Complex nearest = end.roots[i];
-      for (const int j : end.met) {
-        const double distance = std::abs(end.roots[j] - end.roots[i]);
-        if (j == i || distance >= least) continue;
-        least = distance;
-        nearest = end.roots[j];
-      }
-      return nearest;
+      std::vector<int> others = end.met;
+      std::erase(others, i);
+      const auto nearest =
+          std::ranges::min_element(others, {}, [&](int j) { return std::abs(end.roots[j] - end.roots[i]); });
+      return end.roots[nearest == others.end() ? i : *nearest];
     };
     for (const int i : end.met) {
       const auto member = static_cast<std::size_t>(i);

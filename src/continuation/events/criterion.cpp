@@ -34,17 +34,9 @@ Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, 
       return chart == Chart::finite ? im - criterion.value : -im - criterion.value * square;
     case EventKind::extremum:
       return re / sqrt(square);
-    case EventKind::flutter:
-    case EventKind::divergence:
-    case EventKind::collision:
-    case EventKind::crossing:
-    case EventKind::veering:
-    case EventKind::fold:
-    case EventKind::branch_point:
-    case EventKind::cusp:
-      break;
+    default:
+      return re;
   }
-  return re;
 }
 
 RealSeries as_series(const Vector& coefficients) {
@@ -79,16 +71,9 @@ std::optional<Criterion> criterion_of(const Event& event) {
     case EventKind::resonance:
     case EventKind::band_edge:
       return Criterion{event.kind, event.value};
-    case EventKind::collision:
-    case EventKind::crossing:
-    case EventKind::veering:
-    case EventKind::fold:
-    case EventKind::branch_point:
-    case EventKind::extremum:
-    case EventKind::cusp:
-      break;
+    default:
+      return std::nullopt;
   }
-  return std::nullopt;
 }
 
 Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Chart chart,

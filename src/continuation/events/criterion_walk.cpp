@@ -1,8 +1,6 @@
 #include "continuation/events/criterion_walk.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "continuation/events/event_record.hpp"
 #include "continuation/events/nearby_mode.hpp"
@@ -98,7 +96,20 @@ class CriterionWalk {
         step_(on_step.step()) {}
 
   /// As `locate`.
-  bool run(double t);
+  bool run(double t) {
+    const auto look_from = [this](double distance) { return look(distance); };
+    const Walk found = walk(t * step_.h, {.free_moves = 0}, look_from);
+    if (found.end == WalkEnd::absent) {
+      if (ending_ == Ending::at_meeting) record(0.0, false);
+      return ending_ != Ending::unsettled;
+    }
+    if (found.end != WalkEnd::settled) return false;
+    const double share = (found.position + found.move) / step_.h;
+    const bool outside = !(share > -end_outside && share <= 1.0 + end_outside);
+    if (target_.sought == Sought::zero && outside) return true;
+    finish(found.move, found.position);
+    return true;
+  }
 
  private:
   /// Why a look ends the walk before Newton's method converges. at_meeting: the zero of Re s is at a double
@@ -106,19 +117,191 @@ class CriterionWalk {
   /// will tell. passed: there is no event.
   enum class Ending { none, at_meeting, unsettled, passed };
 
-  Sight look(double distance);
-  Ending ending(const ComplexVector& series, int look) const;
-  std::optional<double> move_behind_meeting(double distance, double move) const;
-  void finish(double offset, double distance);
-  void record(double offset, bool located);
-  int direction(double offset) const;
-  double other_factor() const;
-  double slope_in(const PathNode& along, const Track& along_q, const std::vector<int>& members) const;
+  /// One Newton step from a distance from the left end.
+  Sight look(double distance) {
+    ++looks_;
+    const Complex expected = on_step_.member_near(member_, distance / step_.h);
+    const bool of_pair = target_.criterion.kind == EventKind::flutter && target_.pair;
+    mode_ = look_at_mode(search_.solver, *step_.left, on_step_.track_index(), expected, distance,
+                         by_product_ ? ModeFunction::product
+                         : of_pair   ? ModeFunction::pair_mean
+                                     : ModeFunction::eigenvalue);
+    if (!mode_) return {Sight::Kind::failed};
+    const ComplexVector& series = mode_->series;
+    ending_ = ending(series, looks_);
+    if (ending_ != Ending::none) return {Sight::Kind::absent};
+    g_ = by_product_ ? Vector(series.real())
+                     : criterion_series(target_.criterion, series, chart(),
+                                        excitation_at(search_, mode_->solved.node));
+    const bool is_zero = target_.sought == Sought::zero;
+    // A slope this small is rounding: the mode stays on the axis and does not cross it.
+    const double scale = std::max(std::abs(mode_->root), search_.problem().reference(chart()));
+    const double still = rounding_of_mean() / scale * std::abs(series[1]);
+    if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
+      ending_ = Ending::passed;
+      return {Sight::Kind::absent};
+    }
+    const RootOfSeries root = root_near_zero(is_zero ? g_ : derivative(g_));
+    const bool useful = root.doubt < INFINITY && std::abs(root.offset) <= std::abs(step_.h);
+    const double newton = useful ? root.offset : is_zero ? -g_[0] / g_[1] : -0.5 * g_[1] / g_[2];
+    const std::optional<double> behind_meeting = move_behind_meeting(distance, newton);
+    const double move = behind_meeting.value_or(newton);
+    moved_ = std::abs(series[1] * move);
+    const double share = (distance + move) / step_.h;
+    if (!(share > -way_outside && share < 1.0 + way_outside)) return {Sight::Kind::failed};
+    // A move this short is accurate enough also for a zero: the error after a Newton step is about the square
+    // of the move. Not so beside a meeting on the real axis, which may be as close.
+    const double range = search_.frame().coordinate_range();
+    const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
+    const bool beside_meeting = has_product(target_, track());
+    const double short_move = beside_meeting ? resolution : extremum_resolution * range;
+    const bool settled =
+        !behind_meeting && ((useful && root.doubt <= resolution) || std::abs(move) <= short_move);
+    return {settled ? Sight::Kind::settled : Sight::Kind::seen, move};
+  }
+
+  /// Whether the walk has reached a double eigenvalue, and what that means.
+  Ending ending(const ComplexVector& series, int look) const {
+    const bool of_axis = target_.criterion.kind == EventKind::flutter;
+    const bool on_axis = std::abs(mode_->root.real()) <= rounding();
+    // On the axis rounding tells eigenvalues from each other no better than from it.
+    const double coincident = std::max(meeting_gap * moved_, of_axis && on_axis ? rounding() : 0.0);
+    const bool meets = series.size() < 2 || (!by_product_ && mode_->gap <= coincident);
+    if (!meets) return Ending::none;
+    if (has_product(target_, track())) return Ending::unsettled;
+    // A double eigenvalue has no derivatives, so that Newton's method cannot go on. Of a zero the signs on
+    // both sides are known; that Re s may touch zero shows nothing where rounding hides it.
+    const bool changes_sign = target_.sought == Sought::zero;
+    return of_axis && changes_sign && (look > 1 || on_axis) ? Ending::at_meeting : Ending::passed;
+  }
+
+  /// Replaces Newton's move where eigenvalues coincide at the left end of the step and that move would lead
+  /// past it. Beside such a point the criterion varies like g = g_m + c sqrt(d), d being the distance from
+  /// the left end; the move leads to the zero of this function. Empty where it does not apply: also where g
+  /// has the same sign at the left end as at the present iterate.
+  std::optional<double> move_behind_meeting(double distance, double move) const {
+    const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
+    if (!track().departure || mode_->is_mean || by_product_ || target_.sought != Sought::zero || !overshoots)
+      return std::nullopt;
+    const Complex root = track().roots[static_cast<Eigen::Index>(member_)];
+    const double at_meeting = on_step_.value(target_.criterion, upper_member(root, chart()), 0.0);
+    if (at_meeting * g_[0] >= 0.0) return std::nullopt;
+    const double share = at_meeting / (g_[0] - at_meeting);
+    return (share * share - 1.0) * distance;
+  }
+
+  /// Decides whether the zero or extremum at `distance` + `offset` is an event, and records it. Beside an
+  /// extremum near zero it locates the two zeros.
+  void finish(double offset, double distance) {
+    if (target_.sought == Sought::zero) return record(offset, true);
+    const double value = jet(g_, offset)[0];
+    const double curvature = 2.0 * g_[2];
+    const double change = std::abs(curvature) * step_.h * step_.h / 8.0;  // over half a step
+    if (target_.sought == Sought::extremum) {
+      // Where a pair meets on the real axis its damping ratio is 1 or -1, an extremum of no interest.
+      const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
+      const bool matters = change > search_.thresholds().criterion.extremum * search_.options.tolerance;
+      if (oscillates && matters) record(offset, true);
+      return;
+    }
+    if (std::abs(value) <= rounding()) {
+      if (change > rounding()) record(offset, true);
+    } else if (value * curvature < 0.0) {
+      const double half = std::sqrt(-2.0 * value / curvature);
+      for (const double side : {-half, half}) {
+        locate(search_, on_step_, member_, {target_.criterion, target_.pair, Sought::zero},
+               (distance + offset + side) / step_.h, found_);
+      }
+    }
+  }
+
+  /// Records the event at the distance `offset` from the last look. `located`: Newton's method converged
+  /// there; else it is a zero at a double eigenvalue.
+  void record(double offset, bool located) {
+    const PathNode& node = mode_->solved.node;
+    const Track& there = node.tracks.front();
+    const EventKind asked = target_.criterion.kind;
+    const bool moves_on = located && !by_product_;
+    const Complex root =
+        moves_on ? evaluate_series(ComplexMatrix(mode_->series.transpose()), offset)[0] : mode_->root;
+    Event event;
+    event.kind = asked != EventKind::flutter || target_.pair ? asked : EventKind::divergence;
+    event.p = evaluate_series(node.path.parameters, offset)[search_.problem().traced];
+    event.s = chart_value(root, there.pair.chart);
+    if (event.kind == EventKind::flutter) event.s = Complex(0.0, std::abs(event.s.imag()));
+    if (event.kind == EventKind::divergence) event.s = 0.0;
+    event.modes = {track().modes[member_]};
+    event.retrackings = looks_;
+    event.node = search_.node;
+    if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
+    if (asked != EventKind::extremum && asked != EventKind::flutter) event.value = target_.criterion.value;
+    const double speed = search_.frame().speed(node);
+    event.direction = located ? direction(offset) : sign_of(target_.behind * step_.h * speed);
+    // A zero of Re s at a recorded collision on the imaginary axis is that collision, not a second event. A
+    // real eigenvalue 1/s that passes zero is at infinity: no divergence.
+    if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
+      return;
+    if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
+    const std::vector<int> members{nearest_member(there, mode_->root, member_)};
+    keep_shape(node, there, members, offset, event);
+    const auto moves = [&](const Track&, const PathNode& along, const Track& along_q) {
+      const bool is_zero = located && target_.sought == Sought::zero;
+      return is_zero ? -slope_in(along, along_q, members) / g_[1] : NAN;
+    };
+    keep_sensitivities(search_.problem(), mode_->solved.point, node, there, members, moves, event,
+                       search_.solver.counts());
+    append(as_static_event(search_, node, std::move(event)), found_);
+  }
+
+  int direction(double offset) const {
+    const double slope = jet(g_, offset)[1];
+    switch (target_.sought) {
+      case Sought::zero:
+        // Where one of two factors is zero, the product's slope is that of the factor times the other one.
+        return sign_of(slope * other_factor() * search_.frame().speed(mode_->solved.node));
+      case Sought::extremum:
+        return -sign_of(g_[2]);  // least damping is where Re mu / |mu| is largest
+      default:
+        return 0;
+    }
+  }
+
+  /// Of a zero of a product: the other eigenvalue, which is the sum of both there. Else 1.
+  double other_factor() const {
+    if (!by_product_) return 1.0;
+    const Track& there = mode_->solved.node.tracks.front();
+    const int root = nearest_member(there, mode_->root, member_);
+    return (there.roots[root] + there.roots[partner_of_root(there, root)]).real();
+  }
+
+  /// Derivative with respect to q of the function whose zero is located: `along_q` has its series in q.
+  double slope_in(const PathNode& along, const Track& along_q, const std::vector<int>& members) const {
+    const Track& there = mode_->solved.node.tracks.front();
+    if (by_product_) {
+      const std::vector<int> factors{members.front(), partner_of_root(there, members.front())};
+      const ComplexVector product =
+          product_series(part_series(along_q.series.Lambda, roots_of(there, factors)));
+      return product.size() < 2 ? NAN : product[1].real();
+    }
+    const Complex slope = mean_slope(along_q, roots_of(there, members));
+    const Vector excitation = excitation_at(search_, along).head(2);
+    return criterion_series(target_.criterion, ComplexVector{{mode_->root, slope}}, there.pair.chart,
+                            excitation)[1];
+  }
+
   const Track& track() const { return on_step_.track(); }
   Chart chart() const { return track().pair.chart; }
+
   /// Errors by rounding of the eigenvalue at the last look, and of the mean of its block.
-  double rounding() const;
-  double rounding_of_mean() const;
+  double rounding() const {
+    const Track& there = mode_->solved.node.tracks.front();
+    const Vector errors = rounding_of_roots(there, search_.thresholds().rounding);
+    return errors[nearest_member(there, mode_->root, member_)];
+  }
+
+  double rounding_of_mean() const {
+    return search_.thresholds().rounding.entries * mode_->solved.node.tracks.front().pair.rounding;
+  }
 
   const EventSearch& search_;
   CriteriaOnStep& on_step_;
@@ -133,204 +316,6 @@ class CriterionWalk {
   int looks_ = 0;
   Ending ending_ = Ending::none;
 };
-
-double CriterionWalk::rounding() const {
-  const Track& there = mode_->solved.node.tracks.front();
-  return rounding_of_roots(there, search_.thresholds().rounding)[nearest_member(there, mode_->root, member_)];
-}
-
-double CriterionWalk::rounding_of_mean() const {
-  return search_.thresholds().rounding.entries * mode_->solved.node.tracks.front().pair.rounding;
-}
-
-/// Whether the walk has reached a double eigenvalue, and what that means.
-CriterionWalk::Ending CriterionWalk::ending(const ComplexVector& series, int look) const {
-  const bool of_axis = target_.criterion.kind == EventKind::flutter;
-  const bool on_axis = std::abs(mode_->root.real()) <= rounding();
-  // On the axis rounding tells eigenvalues from each other no better than from it.
-  const double coincident = std::max(meeting_gap * moved_, of_axis && on_axis ? rounding() : 0.0);
-  const bool meets = series.size() < 2 || (!by_product_ && mode_->gap <= coincident);
-  if (!meets) return Ending::none;
-  if (has_product(target_, track())) return Ending::unsettled;
-  // A double eigenvalue has no derivatives, so that Newton's method cannot go on. Of a zero the signs on both
-  // sides are known; that Re s may touch zero shows nothing where rounding hides it.
-  const bool changes_sign = target_.sought == Sought::zero;
-  return of_axis && changes_sign && (look > 1 || on_axis) ? Ending::at_meeting : Ending::passed;
-}
-
-/// Replaces Newton's move where eigenvalues coincide at the left end of the step and that move would lead
-/// past it. Beside such a point the criterion varies like g = g_m + c sqrt(d), d being the distance from the
-/// left end; the move leads to the zero of this function. Empty where it does not apply: also where g has the
-/// same sign at the left end as at the present iterate.
-std::optional<double> CriterionWalk::move_behind_meeting(double distance, double move) const {
-  const bool overshoots = distance * step_.h > 0.0 && (distance + move) * step_.h <= 0.0;
-  if (!track().departure || mode_->is_mean || by_product_ || target_.sought != Sought::zero || !overshoots)
-    return std::nullopt;
-  const Complex root = track().roots[static_cast<Eigen::Index>(member_)];
-  const double at_meeting = on_step_.value(target_.criterion, upper_member(root, chart()), 0.0);
-  if (at_meeting * g_[0] >= 0.0) return std::nullopt;
-  const double share = at_meeting / (g_[0] - at_meeting);
-  return (share * share - 1.0) * distance;
-}
-
-/// One Newton step from a distance from the left end.
-Sight CriterionWalk::look(double distance) {
-  ++looks_;
-  const Complex expected = on_step_.member_near(member_, distance / step_.h);
-  const bool of_pair = target_.criterion.kind == EventKind::flutter && target_.pair;
-  mode_ = look_at_mode(search_.solver, *step_.left, on_step_.track_index(), expected, distance,
-                       by_product_ ? ModeFunction::product
-                       : of_pair   ? ModeFunction::pair_mean
-                                   : ModeFunction::eigenvalue);
-  if (!mode_) return {Sight::Kind::failed};
-  const ComplexVector& series = mode_->series;
-  ending_ = ending(series, looks_);
-  if (ending_ != Ending::none) return {Sight::Kind::absent};
-  g_ = by_product_
-           ? Vector(series.real())
-           : criterion_series(target_.criterion, series, chart(), excitation_at(search_, mode_->solved.node));
-  const bool is_zero = target_.sought == Sought::zero;
-  // A slope this small is rounding: the mode stays on the axis and does not cross it.
-  const double scale = std::max(std::abs(mode_->root), search_.problem().reference(chart()));
-  const double still = rounding_of_mean() / scale * std::abs(series[1]);
-  if (!g_.allFinite() || (is_zero ? std::abs(g_[1]) <= still : g_[1] == 0.0)) {
-    ending_ = Ending::passed;
-    return {Sight::Kind::absent};
-  }
-  const RootOfSeries root = root_near_zero(is_zero ? g_ : derivative(g_));
-  const bool useful = root.doubt < INFINITY && std::abs(root.offset) <= std::abs(step_.h);
-  const double newton = useful ? root.offset : is_zero ? -g_[0] / g_[1] : -0.5 * g_[1] / g_[2];
-  const std::optional<double> behind_meeting = move_behind_meeting(distance, newton);
-  const double move = behind_meeting.value_or(newton);
-  moved_ = std::abs(series[1] * move);
-  const double share = (distance + move) / step_.h;
-  if (!(share > -way_outside && share < 1.0 + way_outside)) return {Sight::Kind::failed};
-  // A move this short is accurate enough also for a zero: the error after a Newton step is about the square
-  // of the move. Not so beside a meeting on the real axis, which may be as close.
-  const double range = search_.frame().coordinate_range();
-  const double resolution = (is_zero ? zero_resolution : extremum_resolution) * range;
-  const bool beside_meeting = has_product(target_, track());
-  const double short_move = beside_meeting ? resolution : extremum_resolution * range;
-  const bool settled =
-      !behind_meeting && ((useful && root.doubt <= resolution) || std::abs(move) <= short_move);
-  return {settled ? Sight::Kind::settled : Sight::Kind::seen, move};
-}
-
-bool CriterionWalk::run(double t) {
-  WalkRules rules;
-  rules.free_moves = 0;
-  const Walk found = walk(t * step_.h, rules, [this](double distance) { return look(distance); });
-  if (found.end == WalkEnd::absent) {
-    if (ending_ == Ending::at_meeting) record(0.0, false);
-    return ending_ != Ending::unsettled;
-  }
-  if (found.end != WalkEnd::settled) return false;
-  const double share = (found.position + found.move) / step_.h;
-  const bool outside = !(share > -end_outside && share <= 1.0 + end_outside);
-  if (target_.sought == Sought::zero && outside) return true;
-  finish(found.move, found.position);
-  return true;
-}
-
-/// Decides whether the zero or extremum at `distance` + `offset` is an event, and records it. Beside an
-/// extremum near zero it locates the two zeros.
-void CriterionWalk::finish(double offset, double distance) {
-  if (target_.sought == Sought::zero) return record(offset, true);
-  const double value = jet(g_, offset)[0];
-  const double curvature = 2.0 * g_[2];
-  const double change = std::abs(curvature) * step_.h * step_.h / 8.0;  // over half a step
-  if (target_.sought == Sought::extremum) {
-    // Where a pair meets on the real axis its damping ratio is 1 or -1, an extremum of no interest.
-    const bool oscillates = std::abs(mode_->root.imag()) > on_real_axis * std::abs(mode_->root);
-    const bool matters = change > search_.thresholds().criterion.extremum * search_.options.tolerance;
-    if (oscillates && matters) record(offset, true);
-    return;
-  }
-  if (std::abs(value) <= rounding()) {
-    if (change > rounding()) record(offset, true);
-  } else if (value * curvature < 0.0) {
-    const double half = std::sqrt(-2.0 * value / curvature);
-    for (const double side : {-half, half}) {
-      locate(search_, on_step_, member_, {target_.criterion, target_.pair, Sought::zero},
-             (distance + offset + side) / step_.h, found_);
-    }
-  }
-}
-
-int CriterionWalk::direction(double offset) const {
-  const double slope = jet(g_, offset)[1];
-  switch (target_.sought) {
-    case Sought::zero:
-      // Where one of two factors is zero, the slope of the product is that of the factor times the other one.
-      return sign_of(slope * other_factor() * search_.frame().speed(mode_->solved.node));
-    case Sought::extremum:
-      return -sign_of(g_[2]);  // least damping is where Re mu / |mu| is largest
-    default:
-      return 0;
-  }
-}
-
-/// Of a zero of a product: the other eigenvalue, which is the sum of both there. Else 1.
-double CriterionWalk::other_factor() const {
-  if (!by_product_) return 1.0;
-  const Track& there = mode_->solved.node.tracks.front();
-  const int root = nearest_member(there, mode_->root, member_);
-  return (there.roots[root] + there.roots[partner_of_root(there, root)]).real();
-}
-
-/// Derivative with respect to q of the function whose zero is located: `along_q` has its series in q.
-double CriterionWalk::slope_in(const PathNode& along, const Track& along_q,
-                               const std::vector<int>& members) const {
-  const Track& there = mode_->solved.node.tracks.front();
-  if (by_product_) {
-    const std::vector<int> factors{members.front(), partner_of_root(there, members.front())};
-    const ComplexVector product =
-        product_series(part_series(along_q.series.Lambda, roots_of(there, factors)));
-    return product.size() < 2 ? NAN : product[1].real();
-  }
-  const Complex slope = mean_slope(along_q, roots_of(there, members));
-  const Vector excitation = excitation_at(search_, along).head(2);
-  return criterion_series(target_.criterion, ComplexVector{{mode_->root, slope}}, there.pair.chart,
-                          excitation)[1];
-}
-
-/// Records the event at the distance `offset` from the last look. `located`: Newton's method converged there;
-/// else it is a zero at a double eigenvalue.
-void CriterionWalk::record(double offset, bool located) {
-  const PathNode& node = mode_->solved.node;
-  const Track& there = node.tracks.front();
-  const EventKind asked = target_.criterion.kind;
-  const bool moves_on = located && !by_product_;
-  const Complex root =
-      moves_on ? evaluate_series(ComplexMatrix(mode_->series.transpose()), offset)[0] : mode_->root;
-  Event event;
-  event.kind = asked != EventKind::flutter || target_.pair ? asked : EventKind::divergence;
-  event.p = evaluate_series(node.path.parameters, offset)[search_.problem().traced];
-  event.s = chart_value(root, there.pair.chart);
-  if (event.kind == EventKind::flutter) event.s = Complex(0.0, std::abs(event.s.imag()));
-  if (event.kind == EventKind::divergence) event.s = 0.0;
-  event.modes = {track().modes[member_]};
-  event.retrackings = looks_;
-  event.node = search_.node;
-  if (asked == EventKind::extremum) event.value = -event.s.real() / std::abs(event.s);
-  if (asked != EventKind::extremum && asked != EventKind::flutter) event.value = target_.criterion.value;
-  const double speed = search_.frame().speed(node);
-  event.direction = located ? direction(offset) : sign_of(target_.behind * step_.h * speed);
-  // A zero of Re s at a recorded collision on the imaginary axis is that collision, not a second event. A
-  // real eigenvalue 1/s that passes zero is at infinity: no divergence.
-  if (asked == EventKind::flutter && search_.log.has_collision_at(event, located, search_.problem().s_ref))
-    return;
-  if (event.kind == EventKind::divergence && there.pair.chart == Chart::reciprocal) return;
-  const std::vector<int> members{nearest_member(there, mode_->root, member_)};
-  keep_shape(node, there, members, offset, event);
-  const auto moves = [&](const Track&, const PathNode& along, const Track& along_q) {
-    const bool is_zero = located && target_.sought == Sought::zero;
-    return is_zero ? -slope_in(along, along_q, members) / g_[1] : NAN;
-  };
-  keep_sensitivities(search_.problem(), mode_->solved.point, node, there, members, moves, event,
-                     search_.solver.counts());
-  append(as_static_event(search_, node, std::move(event)), found_);
-}
 
 }  // namespace
 

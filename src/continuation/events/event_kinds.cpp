@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/texts.hpp"
+#include "eigentrail/core/text.hpp"
 
 namespace eigentrail {
 namespace {
@@ -68,19 +69,6 @@ std::string band_remark(const EventFacts& facts) {
   return "of " + rounded(facts.value) + " rad/s" + turns(facts, ", rises through it", ", falls through it");
 }
 
-/// Zero is allowed: a damping ratio of zero is flutter, which every trace looks for.
-bool is_ratio(double value) {
-  return std::abs(value) < 1.0;
-}
-
-bool is_harmonic(double value) {
-  return value > 0.0 && std::isfinite(value);
-}
-
-bool is_finite(double value) {
-  return std::isfinite(value);
-}
-
 constexpr std::array<EventKindInfo, 13> kinds{{
     {EventKind::flutter, "flutter", "flutter", "x", true, axis_remark},
     {EventKind::divergence, "divergence", "divergence", "cross", true, axis_remark},
@@ -95,16 +83,17 @@ constexpr std::array<EventKindInfo, 13> kinds{{
      "square-open",
      false,
      damping_remark,
+     // Zero is allowed: a damping ratio of zero is flutter, which every trace looks for.
      {"damping_ratio", "where the damping ratio of a pair has this value", "must lie between -1 and 1",
-      is_ratio}},
+      [](double value) { return std::abs(value) < 1.0; }}},
     {EventKind::resonance,
      "resonance",
      "resonance",
      "diamond-open",
      true,
      resonance_remark,
-     {"harmonics", "where Im s is this multiple of the excitation frequency", "must be positive", is_harmonic,
-      true}},
+     {"harmonics", "where Im s is this multiple of the excitation frequency", "must be positive",
+      [](double value) { return value > 0.0 && std::isfinite(value); }, true}},
     {EventKind::extremum, "extremum", "extremum", "triangle-down-open", false, extremum_remark},
     {EventKind::log_decrement,
      "log_decrement",
@@ -113,7 +102,7 @@ constexpr std::array<EventKindInfo, 13> kinds{{
      false,
      decrement_remark,
      {"log_decrement", "where the logarithmic decrement of a pair has this value", "must be a finite number",
-      is_finite}},
+      [](double value) { return std::isfinite(value); }}},
     {EventKind::band_edge, "band_edge", "edge of the band", "line-ew-open", false, band_remark},
     {EventKind::cusp, "cusp", "cusp", "pentagon-open", true, no_remark},
 }};
@@ -136,6 +125,16 @@ const EventKindInfo* find_event_kind(std::string_view name) {
   const auto* const found = std::find_if(kinds.begin(), kinds.end(),
                                          [name](const EventKindInfo& info) { return info.name == name; });
   return found == kinds.end() ? nullptr : found;
+}
+
+std::string event_name(EventKind kind) {
+  return std::string(event_kind(kind).name);
+}
+
+std::string event_line(const Event& event) {
+  const std::string modes = joined(event.modes, ";", [](int mode) { return std::to_string(mode + 1); });
+  return event_name(event.kind) + ',' + exact_text(event.p) + ',' + exact_text(event.s.real()) + ',' +
+         exact_text(event.s.imag()) + ',' + modes;
 }
 
 }  // namespace eigentrail

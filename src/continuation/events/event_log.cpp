@@ -29,6 +29,14 @@ double spread_at(const Event& collision, double place, double s_ref) {
          event_rounding_margin * scale * std::pow(std::numeric_limits<double>::epsilon(), 1.0 / m);
 }
 
+template <class Condition>
+bool any_event(const EventLog& log, const Condition& holds) {
+  const auto any_of = [&](const std::vector<Event>& list) {
+    return std::any_of(list.begin(), list.end(), holds);
+  };
+  return any_of(log.events) || (log.found != nullptr && any_of(log.found->events));
+}
+
 }  // namespace
 
 void append(FoundEvents more, FoundEvents& all) {
@@ -51,22 +59,14 @@ bool are_one(const Event& a, const Event& b, double range, const EventThresholds
          (!veering || std::abs(a.s - b.s) <= thresholds.same_eigenvalue * scale);
 }
 
-template <class Condition>
-bool EventLog::any_event(const Condition& holds) const {
-  const auto any_of = [&](const std::vector<Event>& list) {
-    return std::any_of(list.begin(), list.end(), holds);
-  };
-  return any_of(events) || (found != nullptr && any_of(found->events));
-}
-
 bool EventLog::has(const Event& event) const {
-  return any_event([&](const Event& other) {
+  return any_event(*this, [&](const Event& other) {
     return are_one(other, event, range.length(), thresholds.event, may_turn_back);
   });
 }
 
 bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) const {
-  return any_event([&](const Event& other) {
+  return any_event(*this, [&](const Event& other) {
     if (other.kind != EventKind::collision) return false;
     // In a collision of one mode a pair touches the real axis and stays a pair. Its crossing of the imaginary
     // axis is another event.
@@ -94,7 +94,7 @@ bool EventLog::knows_veering(Complex p, const std::vector<int>& modes) const {
     return event.modes == modes && std::abs(event.p - p.real()) <= slack &&
            std::abs(event.half_width - std::abs(p.imag())) <= slack;
   };
-  return any_event(is_it);
+  return any_event(*this, is_it);
 }
 
 bool EventLog::is_on_range(const Event& event) const {

@@ -40,10 +40,6 @@ struct EventLog {
 
   /// Whether an event lies within the traced range, up to rounding.
   bool is_on_range(const Event& event) const;
-
- private:
-  template <class Condition>
-  bool any_event(const Condition& holds) const;
 };
 
 /// Appends to `events` what is within the range and not recorded yet. `log` is a view of the same events.

@@ -35,12 +35,10 @@ std::vector<double> read_numbers(TableReader& table, const EventRequest& request
 /// The traced parameter as the excitation frequency: its SI value in rad/s. Fails if its unit is not one of a
 /// frequency. A parameter without a unit is in rad/s.
 Expression traced_frequency(const Scene& scene, const std::string& traced, const TableReader& table) {
-  const auto index = scene.parameters.index(traced);
   const Expression frequency = Expression::parse(traced, scene.parameters.names());
   const std::string fault = dimension_fault(frequency, scene.parameters.list(), "rad/s");
   if (!fault.empty()) {
-    table.fail("harmonics", "of what frequency? '" + traced + "' is in " +
-                                scene.parameters[static_cast<std::size_t>(*index)].unit +
+    table.fail("harmonics", "of what frequency? '" + traced + "' is in " + scene.parameters.at(traced).unit +
                                 "; give `excitation`, in rad/s, as an expression of the parameters");
   }
   return frequency;
@@ -61,10 +59,9 @@ void take_units(const Scene& scene, const std::string& key, const Parameter& tra
 
 /// The table [events] with operating ranges in the unit of the traced parameter.
 Table with_plain_ranges(const Scene& scene, const std::string& traced, Table events) {
-  const auto index = scene.parameters.index(traced);
   for (auto& [key, value] : events.entries) {
-    if (key == "operating_range" && index)
-      take_units(scene, key, scene.parameters[static_cast<std::size_t>(*index)], value);
+    if (key == "operating_range" && scene.parameters.index(traced))
+      take_units(scene, key, scene.parameters.at(traced), value);
   }
   return events;
 }

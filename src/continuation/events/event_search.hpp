@@ -4,6 +4,7 @@
 #include "continuation/events/criterion.hpp"
 #include "continuation/events/event_log.hpp"
 #include "continuation/point/point_solver.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {
@@ -22,6 +23,8 @@ struct EventSearch {
 };
 
 /// "omega = 12.4", for messages.
-std::string place_text(const TraceOptions& options, double p);
+inline std::string place_text(const TraceOptions& options, double p) {
+  return options.parameter + " = " + short_text(p, 12);
+}
 
 }  // namespace eigentrail

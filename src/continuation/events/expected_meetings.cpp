@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "continuation/events/common_collision.hpp"
@@ -66,65 +65,10 @@ std::optional<PlaceOnStep> common_place(const Track& track, const EigenvalueSamp
 }
 
 ExpectedMeeting expected_of_all(const Track& track, std::size_t index, double position) {
-  ExpectedMeeting meeting{{index, {}}, {index, {}}, position};
-  meeting.a.members.resize(static_cast<std::size_t>(track.size()));
-  std::iota(meeting.a.members.begin(), meeting.a.members.end(), 0);
+  ExpectedMeeting meeting{{index, other_members(track.size(), {})}, {index, {}}, position};
   meeting.is_of_all = true;
   return meeting;
 }
-
-}  // namespace
-
-MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length,
-                                  const MeetingSearch& search) {
-  // In steps: roots nearer to the left end are the known meeting there.
-  constexpr double behind_a_meeting = 1e-4;
-  std::vector<ExpectedMeeting> meetings;
-  FirstRoots first_roots;
-  for (std::size_t i = 0; i < left.tracks.size(); ++i) {
-    const Track& track = left.tracks[i];
-    if (track.size() < 2) continue;
-    EigenvalueSampler sampler(left, right, i, length);
-    double up_to = 1.0;
-    if (const auto place = search.common ? common_place(track, sampler) : std::nullopt) {
-      meetings.push_back(expected_of_all(track, i, place->t * length));
-      first_roots.found(place->t);
-      up_to = place->t - place->hidden_within;
-    }
-    const std::vector<EigenvalueBranch> branches = eigenvalue_branches_of(track, i, sampler);
-    for (std::size_t a = 0; a < branches.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) {
-        Stretch stretch = where_told_apart(track, right.tracks[i], length, branches[a], branches[b]);
-        stretch.to = std::min(stretch.to, up_to);
-        if (stretch.from >= stretch.to) continue;
-        const bool has_just_met = have_just_met(track, branches[a].members, branches[b].members);
-        const double first = has_just_met ? behind_a_meeting : 0.0;
-        RootsOnStep roots(sampler, branches[a].members.front(), branches[b].members.front(), looked_into,
-                          stretch);
-        std::vector<double> found;
-        for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
-          if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
-        }
-        if (!stretch.is_whole()) {
-          std::erase_if(found, [&](double position) {
-            const double t = position / length;
-            return t < stretch.from || t > stretch.to;
-          });
-        }
-        for (const double position : found) {
-          meetings.push_back({branches[b], branches[a], position});
-          meetings.back().has_just_met = has_just_met;
-        }
-      }
-    }
-  }
-  std::stable_sort(meetings.begin(), meetings.end(), [](const ExpectedMeeting& x, const ExpectedMeeting& y) {
-    return std::abs(x.position) < std::abs(y.position);
-  });
-  return {std::move(meetings), first_roots.up_to};
-}
-
-namespace {
 
 /// Series of an eigenvalue branch at one end, the mean of all that coincide. Empty when these cannot be
 /// separated from the others of the block.
@@ -271,10 +215,9 @@ class GapsOnStep {
 
  private:
   Complex value(const EigenvalueBranch& branch, double t) {
-    auto known = samplers_.find(branch.track);
-    if (known == samplers_.end())
-      known = samplers_.try_emplace(branch.track, left_, right_, branch.track, length_).first;
-    return known->second(std::clamp(t, 0.0, 1.0))[branch.members.front()];
+    EigenvalueSampler& sampler =
+        samplers_.try_emplace(branch.track, left_, right_, branch.track, length_).first->second;
+    return sampler(std::clamp(t, 0.0, 1.0))[branch.members.front()];
   }
 
   const PathNode& left_;
@@ -284,6 +227,53 @@ class GapsOnStep {
 };
 
 }  // namespace
+
+MeetingsOnStep expected_in_blocks(const PathNode& left, const PathNode& right, double length,
+                                  const MeetingSearch& search) {
+  // In steps: roots nearer to the left end are the known meeting there.
+  constexpr double behind_a_meeting = 1e-4;
+  std::vector<ExpectedMeeting> meetings;
+  FirstRoots first_roots;
+  for (std::size_t i = 0; i < left.tracks.size(); ++i) {
+    const Track& track = left.tracks[i];
+    if (track.size() < 2) continue;
+    EigenvalueSampler sampler(left, right, i, length);
+    double up_to = 1.0;
+    if (const auto place = search.common ? common_place(track, sampler) : std::nullopt) {
+      meetings.push_back(expected_of_all(track, i, place->t * length));
+      first_roots.found(place->t);
+      up_to = place->t - place->hidden_within;
+    }
+    const std::vector<EigenvalueBranch> branches = eigenvalue_branches_of(track, i, sampler);
+    for (std::size_t a = 0; a < branches.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        Stretch stretch = where_told_apart(track, right.tracks[i], length, branches[a], branches[b]);
+        stretch.to = std::min(stretch.to, up_to);
+        if (stretch.from >= stretch.to) continue;
+        const bool has_just_met = have_just_met(track, branches[a].members, branches[b].members);
+        const double first = has_just_met ? behind_a_meeting : 0.0;
+        RootsOnStep roots(sampler, branches[a].members.front(), branches[b].members.front(), looked_into,
+                          stretch);
+        std::vector<double> found;
+        for (const Complex t : search.all ? roots.find() : roots.find_first(first, first_roots)) {
+          if (t.real() > first) add_position(std::min(t.real(), 1.0) * length, found);
+        }
+        std::erase_if(found, [&](double position) {
+          const double t = position / length;
+          return t < stretch.from || t > stretch.to;
+        });
+        for (const double position : found) {
+          meetings.push_back({branches[b], branches[a], position});
+          meetings.back().has_just_met = has_just_met;
+        }
+      }
+    }
+  }
+  std::stable_sort(meetings.begin(), meetings.end(), [](const ExpectedMeeting& x, const ExpectedMeeting& y) {
+    return std::abs(x.position) < std::abs(y.position);
+  });
+  return {std::move(meetings), first_roots.up_to};
+}
 
 std::vector<ExpectedMeeting> expected_beside(const PathNode& left, const PathNode& right, double length,
                                              double width) {

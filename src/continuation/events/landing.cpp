@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "continuation/events/common_collision.hpp"
-#include "continuation/events/overlooked_collision.hpp"
+#include "continuation/events/step_checks.hpp"
 #include "continuation/events/walk.hpp"
 #include "eigentrail/modes/invariants.hpp"
 
@@ -58,9 +58,7 @@ bool land_on_end(StepSolver& solver, Step& step) {
       const bool there = std::abs(miss) <= on_end * std::max(range.length(), std::abs(end));
       return {there ? Sight::Kind::settled : Sight::Kind::seen, miss / frame.speed(step.right)};
     };
-    WalkRules rules;
-    rules.begin = 0.0;
-    rules.end = beyond_step * step.h;
+    const WalkRules rules{.begin = 0.0, .end = beyond_step * step.h};
     if (walk(guess, rules, look).end != WalkEnd::settled) return false;
     step.right.p = step.right.path.parameters(range.traced, 0) = end;
     return true;
@@ -83,11 +81,7 @@ bool land_on_fold(StepSolver& solver, Step& step) {
     step = std::move(*attempted.step);
     return {Sight::Kind::seen, fold_distance(frame, step.right)};
   };
-  WalkRules rules;
-  rules.resolution = landing_accuracy;
-  rules.rounding = on_fold;
-  rules.begin = 0.0;
-  rules.end = step.h;
+  const WalkRules rules{.resolution = landing_accuracy, .rounding = on_fold, .begin = 0.0, .end = step.h};
   return walk(step.h * before / (before - behind), rules, look).end == WalkEnd::settled;
 }
 
@@ -102,7 +96,24 @@ class MeetingLanding {
         at_point_(thresholds_.at_point * solver.points().frame().coordinate_range()) {}
 
   /// Shortens the step to the first meeting that it passes. False if one is predicted and cannot be located.
-  bool land();
+  bool land() {
+    MeetingSearch search{false, true};
+    while (true) {
+      const MeetingsOnStep expected = expected_in_blocks(*step_.left, step_.right, step_.h, search);
+      double place = step_.h;
+      const bool has_landed = land_on_first(expected.meetings, place);
+      if (search.common && denies_common_) {
+        search.common = false;  // what it seemed to hide is looked for
+      } else if (!has_landed || search.all || place / step_.h + worth_a_look <= expected.complete_to) {
+        return has_landed;
+      } else {
+        search.all = true;
+      }
+      cut_.reset();
+      meetings_.clear();
+    }
+  }
+
   /// The shorter step; empty where the step is not shortened.
   std::optional<Step> take_cut() { return std::move(cut_); }
   std::vector<MeetingOnEnd> take_meetings() { return std::move(meetings_); }
@@ -112,20 +123,199 @@ class MeetingLanding {
   enum class Approach { reached, nothing, failed };
   enum class Cut { done, none, failed };
 
-  bool land_on_first(const std::vector<ExpectedMeeting>& expected, double& place);
-  Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks);
-  Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks);
+  /// Shortens the step to the first of the expected meetings that it passes. `place` is set to its distance;
+  /// it stays the length of the step where there is none. False if one cannot be located.
+  bool land_on_first(const std::vector<ExpectedMeeting>& expected, double& place) {
+    std::optional<std::size_t> first;
+    int first_looks = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      double distance = expected[i].position.real();
+      // A prediction may be off: what was found first can lie behind others that are expected later.
+      if (first && distance / place >= 1.0 - worth_a_look) break;
+      std::optional<Step> kept = std::exchange(cut_, std::nullopt);
+      int looks = 0;
+      const Cut cut = cut_at(expected[i], distance, looks);
+      if (expected[i].is_of_all && cut != Cut::done) denies_common_ = true;
+      if (cut == Cut::failed) return false;
+      if (cut == Cut::none || (first && distance / place >= 1.0)) {
+        cut_ = std::move(kept);
+        continue;
+      }
+      first = i;
+      place = distance;
+      first_looks = looks;
+    }
+    if (!first) return true;
+    record(expected[*first], first_looks);
+    for (std::size_t j = 0; j < expected.size(); ++j) {
+      const bool is_there = std::abs(expected[j].position.real() - place) <= worth_a_look * std::abs(step_.h);
+      if (j != *first && is_there) record(expected[j], 1);
+    }
+    return true;
+  }
+
+  /// Shortens the step to one predicted meeting. `distance` is set to its position, and `looks` counts the
+  /// points computed.
+  Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks) {
+    Approach approach = follow(expected, true, distance, looks);
+    if (approach == Approach::nothing) return Cut::none;
+    // At one end of every step, at least, the eigenvalues of a block must be distinct, so that they can be
+    // identified. If the step begins at a meeting it ends half way to the next one.
+    const bool between =
+        approach == Approach::reached && step_.left->tracks[expected.a.track].departure.has_value();
+    if (between) distance *= 0.5;
+    bool landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
+    if (landed && !between && !meeting_at_end(expected)) {
+      cut_.reset();
+      approach = follow(expected, false, distance, looks);
+      landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
+    }
+    if (landed) return Cut::done;
+    cut_.reset();
+    return on_any_terms_ ? Cut::none : Cut::failed;
+  }
+
+  /// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
+  /// look_from. If another meeting lies before the result, goes back to it once; not if that turns out to be
+  /// the known one at the left end, which from far away is seen inaccurately.
+  Approach follow(const ExpectedMeeting& expected, bool trusting, double& distance, int& looks) {
+    const PathFrame& frame = solver_.points().frame();
+    const double h = step_.h;
+    const double resolution =
+        frame.plane ? landing_accuracy
+                    : landing_accuracy * std::max(frame.range.length(), std::abs(step_.left->p));
+    EigenvalueSampler branches(*step_.left, step_.right, expected.a.track, h);
+    std::optional<double> later;  // a meeting that was located before one in front of it was looked for
+    const auto no_other = [&] {
+      if (!later) return Approach::nothing;
+      distance = *later;
+      return Approach::reached;
+    };
+    for (const bool may_go_back : {true, false}) {
+      double earlier = 0.0;
+      bool own_end = false;
+      WalkRules rules{.resolution = resolution,
+                      .rounding = at_point_,
+                      .begin = 0.0,
+                      .end = h,
+                      // What is zero on a branch point is double, and known as that.
+                      .slack = frame.on_branch_point(step_.right) ? at_point_ : beyond * std::abs(h),
+                      .looks = most_looks - looks};
+      const auto look = [&](double at) {
+        double rounding = 0.0;
+        const Sight sight = look_from(at, expected, trusting, branches, earlier, rounding);
+        rules.rounding = std::max(at_point_, rounding);
+        own_end = sight.kind == Sight::Kind::settled;
+        return sight;
+      };
+      const Walk found = walk(distance, rules, look);
+      looks += found.looks;
+      distance = found.position;
+      if (found.end == WalkEnd::absent || (found.end == WalkEnd::outside && later)) return no_other();
+      const double in_front = distance - found.move + earlier;
+      if (found.end == WalkEnd::outside && may_go_back && earlier != 0.0 && in_front / h > at_left_end) {
+        distance = in_front;  // the step passes another one in front of that beyond its end
+        continue;
+      }
+      if (found.end == WalkEnd::outside)
+        return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
+                                                                                  : Approach::failed;
+      if (found.end != WalkEnd::settled) return Approach::failed;
+      if (own_end && std::abs(found.move) > resolution) {
+        distance += found.move;
+        return Approach::reached;
+      }
+      // The walk may have converged to a later meeting than the first.
+      const bool goes_back = may_go_back && earlier != 0.0 && (distance + earlier) / h > at_left_end;
+      if (!goes_back) return is_left_end(expected, distance) ? no_other() : Approach::reached;
+      later = distance;
+      distance += earlier;
+    }
+    return Approach::failed;
+  }
+
+  /// Estimates the offset of the meeting from the point at a distance from the left end. `earlier` is set to
+  /// the offset of another meeting that the step passes before it, or to zero, and `rounding` to the error of
+  /// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
+  /// digits.
   Sight look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                  EigenvalueSampler& branches, double& earlier, double& rounding);
+                  EigenvalueSampler& branches, double& earlier, double& rounding) {
+    const double h = step_.h;
+    const std::size_t index = expected.a.track;
+    Track there;
+    if (distance == h) {
+      there = step_.right.tracks[index];
+    } else {
+      std::optional<SolvedPoint> point = solver_.points().follow(one_track(*step_.left, index), distance);
+      if (!point) return {Sight::Kind::failed};
+      there = std::move(point->node.tracks.front());
+    }
+    if (!expected.is_of_all) there.roots = in_order_of(branches(distance / h), there.roots);
+    const Meeting meeting = seen_from(there, expected);
+    if (!meeting.found) return {Sight::Kind::absent};
+    rounding = meeting.rounding;
+    const double move = std::abs(meeting.offset);
+    const bool is_wide =
+        meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
+    if (is_wide && move < near_veering * meeting.half_width) return {Sight::Kind::absent};
+    const bool near = !expected.is_of_all && move <= std::max(seen_well * std::abs(h), at_point_);
+    earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
+    const double share = (distance + meeting.offset) / h;
+    const bool trusted =
+        trusting && move <= seen_well * std::abs(h) && share > seen_well && share < 1.0 && earlier == 0.0;
+    return {trusted ? Sight::Kind::settled : Sight::Kind::seen, meeting.offset};
+  }
+
   Meeting seen_from(const Track& track, const ExpectedMeeting& expected) const {
     return expected.is_of_all
                ? meeting_of_all(track, step_.h)
                : nearest_meeting(track, expected.a.members, expected.b.members, step_.h, thresholds_);
   }
-  std::optional<Meeting> meeting_at_end(const ExpectedMeeting& expected) const;
-  bool is_left_end(const ExpectedMeeting& expected, double distance) const;
-  bool attempt(double distance);
-  void record(const ExpectedMeeting& expected, int looks);
+
+  /// The meeting at the end of the step, shortened or not, if there is one.
+  std::optional<Meeting> meeting_at_end(const ExpectedMeeting& expected) const {
+    const Track& track = (cut_ ? cut_->right : step_.right).tracks[expected.a.track];
+    const Meeting meeting = seen_from(track, expected);
+    if (!meeting.found || std::abs(meeting.offset) > std::max(at_point_, meeting.rounding) ||
+        meeting.half_width > thresholds_.narrow * std::abs(step_.h))
+      return std::nullopt;
+    return meeting;
+  }
+
+  /// Whether a meeting at this distance is at the left end of the step, and known there. Steps towards a
+  /// collision of two modes that were followed one by one are shorter than `at_point` themselves; nothing has
+  /// met at their left end. On a branch point the eigenvalue zero is double, and known as that.
+  bool is_left_end(const ExpectedMeeting& expected, double distance) const {
+    const PathFrame& frame = solver_.points().frame();
+    const bool is_known = expected.has_just_met || frame.on_branch_point(*step_.left);
+    return std::abs(distance) <= (is_known ? at_point_ : landing_accuracy * frame.coordinate_range());
+  }
+
+  /// Computes the step that ends at a distance. False if the point there is not found.
+  bool attempt(double distance) {
+    cut_ = solver_.attempt(distance).step;
+    return cut_.has_value();
+  }
+
+  /// Adds the meeting to the list if it is at the end of the step; once where several are predicted close to
+  /// it. Of crossings and collisions of some members and of more, which each pair sees as its neighbours are,
+  /// the one of more stays.
+  void record(const ExpectedMeeting& expected, int looks) {
+    const std::optional<Meeting> meeting = meeting_at_end(expected);
+    if (!meeting) return;
+    const auto covers = [&](const Meeting& more, const Meeting& some) {
+      return more.kind == some.kind && std::includes(more.members.begin(), more.members.end(),
+                                                     some.members.begin(), some.members.end());
+    };
+    const auto is_it = [&](const MeetingOnEnd& other) {
+      return other.track == expected.a.track && covers(other.meeting, *meeting);
+    };
+    if (std::any_of(meetings_.begin(), meetings_.end(), is_it)) return;
+    std::erase_if(meetings_, [&](const MeetingOnEnd& other) {
+      return other.track == expected.a.track && covers(*meeting, other.meeting);
+    });
+    meetings_.push_back({expected.a.track, *meeting, looks});
+  }
 
   StepSolver& solver_;
   const Step& step_;  ///< the whole step; distances are measured from its left end
@@ -136,214 +326,6 @@ class MeetingLanding {
   std::vector<MeetingOnEnd> meetings_;
   bool denies_common_ = false;  ///< a meeting of all eigenvalues of a block was expected, and is none
 };
-
-/// Computes the step that ends at a distance. False if the point there is not found.
-bool MeetingLanding::attempt(double distance) {
-  cut_ = solver_.attempt(distance).step;
-  return cut_.has_value();
-}
-
-/// The meeting at the end of the step, shortened or not, if there is one.
-std::optional<Meeting> MeetingLanding::meeting_at_end(const ExpectedMeeting& expected) const {
-  const Track& track = (cut_ ? cut_->right : step_.right).tracks[expected.a.track];
-  const Meeting meeting = seen_from(track, expected);
-  if (!meeting.found || std::abs(meeting.offset) > std::max(at_point_, meeting.rounding) ||
-      meeting.half_width > thresholds_.narrow * std::abs(step_.h))
-    return std::nullopt;
-  return meeting;
-}
-
-/// Whether a meeting at this distance is at the left end of the step, and known there. Steps towards a
-/// collision of two modes that were followed one by one are shorter than `at_point` themselves; nothing has
-/// met at their left end. On a branch point the eigenvalue zero is double, and known as that.
-bool MeetingLanding::is_left_end(const ExpectedMeeting& expected, double distance) const {
-  const PathFrame& frame = solver_.points().frame();
-  const bool is_known = expected.has_just_met || frame.on_branch_point(*step_.left);
-  return std::abs(distance) <= (is_known ? at_point_ : landing_accuracy * frame.coordinate_range());
-}
-
-/// Estimates the offset of the meeting from the point at a distance from the left end. `earlier` is set to
-/// the offset of another meeting that the step passes before it, or to zero, and `rounding` to the error of
-/// the estimate by rounding. `trusting`: ends the walk as soon as the series there give the place to all
-/// digits.
-Sight MeetingLanding::look_from(double distance, const ExpectedMeeting& expected, bool trusting,
-                                EigenvalueSampler& branches, double& earlier, double& rounding) {
-  const double h = step_.h;
-  const std::size_t index = expected.a.track;
-  Track there;
-  if (distance == h) {
-    there = step_.right.tracks[index];
-  } else {
-    std::optional<SolvedPoint> point = solver_.points().follow(one_track(*step_.left, index), distance);
-    if (!point) return {Sight::Kind::failed};
-    there = std::move(point->node.tracks.front());
-  }
-  if (!expected.is_of_all) there.roots = in_order_of(branches(distance / h), there.roots);
-  const Meeting meeting = seen_from(there, expected);
-  if (!meeting.found) return {Sight::Kind::absent};
-  rounding = meeting.rounding;
-  const double move = std::abs(meeting.offset);
-  const bool is_wide =
-      meeting.kind == EventKind::veering && meeting.half_width > thresholds_.narrow * std::abs(h);
-  if (is_wide && move < near_veering * meeting.half_width) return {Sight::Kind::absent};
-  const bool near = !expected.is_of_all && move <= std::max(seen_well * std::abs(h), at_point_);
-  earlier = near ? earlier_meeting(there, expected.a.members, expected.b.members, h) : 0.0;
-  const double share = (distance + meeting.offset) / h;
-  const bool trusted =
-      trusting && move <= seen_well * std::abs(h) && share > seen_well && share < 1.0 && earlier == 0.0;
-  return {trusted ? Sight::Kind::settled : Sight::Kind::seen, meeting.offset};
-}
-
-/// Locates a meeting by Newton's method from `distance`, which is set to the result. `trusting` as in
-/// look_from. If another meeting lies before the result, goes back to it once; not if that turns out to be
-/// the known one at the left end, which from far away is seen inaccurately.
-MeetingLanding::Approach MeetingLanding::follow(const ExpectedMeeting& expected, bool trusting,
-                                                double& distance, int& looks) {
-  const PathFrame& frame = solver_.points().frame();
-  const double h = step_.h;
-  const double resolution = frame.plane
-                                ? landing_accuracy
-                                : landing_accuracy * std::max(frame.range.length(), std::abs(step_.left->p));
-  EigenvalueSampler branches(*step_.left, step_.right, expected.a.track, h);
-  std::optional<double> later;  // a meeting that was located before one in front of it was looked for
-  const auto no_other = [&] {
-    if (!later) return Approach::nothing;
-    distance = *later;
-    return Approach::reached;
-  };
-  for (const bool may_go_back : {true, false}) {
-    double earlier = 0.0;
-    bool own_end = false;
-    WalkRules rules;
-    const auto look = [&](double at) {
-      double rounding = 0.0;
-      const Sight sight = look_from(at, expected, trusting, branches, earlier, rounding);
-      rules.rounding = std::max(at_point_, rounding);
-      own_end = sight.kind == Sight::Kind::settled;
-      return sight;
-    };
-    rules.resolution = resolution;
-    rules.rounding = at_point_;
-    rules.begin = 0.0;
-    rules.end = h;
-    // What is zero on a branch point is double, and known as that.
-    rules.slack = frame.on_branch_point(step_.right) ? at_point_ : beyond * std::abs(h);
-    rules.looks = most_looks - looks;
-    const Walk found = walk(distance, rules, look);
-    looks += found.looks;
-    distance = found.position;
-    if (found.end == WalkEnd::absent || (found.end == WalkEnd::outside && later)) return no_other();
-    const double in_front = distance - found.move + earlier;
-    if (found.end == WalkEnd::outside && may_go_back && earlier != 0.0 && in_front / h > at_left_end) {
-      distance = in_front;  // the step passes another one in front of that beyond its end
-      continue;
-    }
-    if (found.end == WalkEnd::outside)
-      return std::abs(found.move) < has_left * std::abs(h) || looks > few_looks ? Approach::nothing
-                                                                                : Approach::failed;
-    if (found.end != WalkEnd::settled) return Approach::failed;
-    if (own_end && std::abs(found.move) > resolution) {
-      distance += found.move;
-      return Approach::reached;
-    }
-    // The walk may have converged to a later meeting than the first.
-    const bool goes_back = may_go_back && earlier != 0.0 && (distance + earlier) / h > at_left_end;
-    if (!goes_back) return is_left_end(expected, distance) ? no_other() : Approach::reached;
-    later = distance;
-    distance += earlier;
-  }
-  return Approach::failed;
-}
-
-/// Adds the meeting to the list if it is at the end of the step; once where several are predicted close to
-/// it. Of crossings and collisions of some members and of more, which each pair sees as its neighbours are,
-/// the one of more stays.
-void MeetingLanding::record(const ExpectedMeeting& expected, int looks) {
-  const std::optional<Meeting> meeting = meeting_at_end(expected);
-  if (!meeting) return;
-  const auto covers = [&](const Meeting& more, const Meeting& some) {
-    return more.kind == some.kind &&
-           std::includes(more.members.begin(), more.members.end(), some.members.begin(), some.members.end());
-  };
-  const auto is_it = [&](const MeetingOnEnd& other) {
-    return other.track == expected.a.track && covers(other.meeting, *meeting);
-  };
-  if (std::any_of(meetings_.begin(), meetings_.end(), is_it)) return;
-  std::erase_if(meetings_, [&](const MeetingOnEnd& other) {
-    return other.track == expected.a.track && covers(*meeting, other.meeting);
-  });
-  meetings_.push_back({expected.a.track, *meeting, looks});
-}
-
-/// Shortens the step to one predicted meeting. `distance` is set to its position, and `looks` counts the
-/// points computed.
-MeetingLanding::Cut MeetingLanding::cut_at(const ExpectedMeeting& expected, double& distance, int& looks) {
-  Approach approach = follow(expected, true, distance, looks);
-  if (approach == Approach::nothing) return Cut::none;
-  // At one end of every step, at least, the eigenvalues of a block must be distinct, so that they can be
-  // identified. If the step begins at a meeting it ends half way to the next one.
-  const bool between =
-      approach == Approach::reached && step_.left->tracks[expected.a.track].departure.has_value();
-  if (between) distance *= 0.5;
-  bool landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
-  if (landed && !between && !meeting_at_end(expected)) {
-    cut_.reset();
-    approach = follow(expected, false, distance, looks);
-    landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
-  }
-  if (landed) return Cut::done;
-  cut_.reset();
-  return on_any_terms_ ? Cut::none : Cut::failed;
-}
-
-/// Shortens the step to the first of the expected meetings that it passes. `place` is set to its distance; it
-/// stays the length of the step where there is none. False if one cannot be located.
-bool MeetingLanding::land_on_first(const std::vector<ExpectedMeeting>& expected, double& place) {
-  std::optional<std::size_t> first;
-  int first_looks = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    double distance = expected[i].position.real();
-    // A prediction may be off: what was found first can lie behind others that are expected later.
-    if (first && distance / place >= 1.0 - worth_a_look) break;
-    std::optional<Step> kept = std::exchange(cut_, std::nullopt);
-    int looks = 0;
-    const Cut cut = cut_at(expected[i], distance, looks);
-    if (expected[i].is_of_all && cut != Cut::done) denies_common_ = true;
-    if (cut == Cut::failed) return false;
-    if (cut == Cut::none || (first && distance / place >= 1.0)) {
-      cut_ = std::move(kept);
-      continue;
-    }
-    first = i;
-    place = distance;
-    first_looks = looks;
-  }
-  if (!first) return true;
-  record(expected[*first], first_looks);
-  for (std::size_t j = 0; j < expected.size(); ++j) {
-    const bool is_there = std::abs(expected[j].position.real() - place) <= worth_a_look * std::abs(step_.h);
-    if (j != *first && is_there) record(expected[j], 1);
-  }
-  return true;
-}
-
-bool MeetingLanding::land() {
-  MeetingSearch search{false, true};
-  while (true) {
-    const MeetingsOnStep expected = expected_in_blocks(*step_.left, step_.right, step_.h, search);
-    double place = step_.h;
-    const bool has_landed = land_on_first(expected.meetings, place);
-    if (search.common && denies_common_) {
-      search.common = false;  // what it seemed to hide is looked for
-    } else if (!has_landed || search.all || place / step_.h + worth_a_look <= expected.complete_to) {
-      return has_landed;
-    } else {
-      search.all = true;
-    }
-    cut_.reset();
-    meetings_.clear();
-  }
-}
 
 }  // namespace
 

@@ -13,8 +13,8 @@ struct Meeting {
   EventKind kind = EventKind::collision;  ///< collision, crossing or veering
   double offset = 0.0;                    ///< from the point, in the path's coordinate
   double half_width = 0.0;                ///< of a veering, in the path's coordinate
-  Complex puiseux;           ///< of a collision: leading Puiseux coefficient in the path's coordinate
-  std::vector<int> members;  ///< indices of the roots of the block that meet, ascending
+  Complex puiseux = {};           ///< of a collision: leading Puiseux coefficient in the path's coordinate
+  std::vector<int> members = {};  ///< indices of the roots of the block that meet, ascending
   /// Of a collision: how many eigenvalues follow one from another around it; they vary like this root of the
   /// distance. Fewer than the members where several such groups meet at one place, as in equal parts.
   int cycle = 2;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "continuation/events/event_record.hpp"
+#include "continuation/events/exceptional_point.hpp"
 #include "continuation/events/static_points.hpp"
-#include "continuation/events/veering_place.hpp"
 #include "continuation/tracks/members.hpp"
 
 namespace eigentrail {

@@ -1,7 +1,5 @@
 #include "continuation/events/meetings.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -176,11 +174,7 @@ std::optional<Meeting> common_crossing(const std::vector<ComplexMatrix>& part, c
   const double offset = -slope.cwiseProduct(here.conjugate()).sum().real() / size;
   const double left = centred(part, offset).norm();
   if (!(left <= remainder * here.norm() || left <= rounding_margin * rounding.lambda)) return std::nullopt;
-  Meeting meeting;
-  meeting.found = true;
-  meeting.kind = EventKind::crossing;
-  meeting.offset = offset;
-  return meeting;
+  return Meeting{.found = true, .kind = EventKind::crossing, .offset = offset};
 }
 
 /// The meeting of all eigenvalues of a cluster in one point; empty if there is none, or if the cluster has no
@@ -225,22 +219,19 @@ Meeting nearest_meeting(const Track& track, const std::vector<int>& a, const std
   const std::vector<int> members = united(a, b);
   if (auto meeting = meeting_in_one_point(track, members, with_bystanders(track.roots, members), reach))
     return *meeting;
-  Meeting meeting;
   const ComplexVector discriminant = discriminant_of(track, a, b);
-  if (discriminant.size() == 0) return meeting;
+  if (discriminant.size() == 0) return {};
   if (vanishes(discriminant, reach, member_resolution(track, members, reach))) {
     // The two coincide everywhere. They may meet others together: those within the square root of rounding,
     // to which multiple eigenvalues are known.
     constexpr double nearby = 1e-7;
     const std::vector<int> others = with_bystanders(track.roots, members, nearby);
-    return meeting_in_one_point(track, members, others, reach).value_or(meeting);
+    return meeting_in_one_point(track, members, others, reach).value_or(Meeting{});
   }
   const std::vector<Complex> roots = roots_by_magnitude(discriminant, reach);
   constexpr double farthest = 2.0;  // in units of the reach: the series is inaccurate beyond
-  if (roots.empty() || std::abs(roots[0]) > farthest * std::abs(reach)) return meeting;
-  meeting.found = true;
-  meeting.members = members;
-  meeting.puiseux = std::sqrt(discriminant[1]);
+  if (roots.empty() || std::abs(roots[0]) > farthest * std::abs(reach)) return {};
+  Meeting meeting{.found = true, .puiseux = std::sqrt(discriminant[1]), .members = members};
   const std::vector<ComplexMatrix> part = part_of_track(track, members);
   const RootResolution known =
       resolution_of_roots(track, members, part.empty() ? track.series.Lambda : part, discriminant, reach);

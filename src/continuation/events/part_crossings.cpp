@@ -73,11 +73,74 @@ class CrossingWalk {
                const ModeOfTrack& b)
       : search_(search), step_(step), on_step_(on_step), modes_{&a, &b} {}
 
-  std::optional<Event> from(double t);
+  std::optional<Event> from(double t) {
+    for (std::size_t i = 0; i < 2; ++i) roots_[i] = on_step_.root(*modes_[i], t);
+    const double speed = std::max(std::abs(search_.frame().speed(*step_.left)), 1e-300);
+    const double resolution = crossing_resolution * search_.frame().range.length() / speed;
+    const WalkRules rules{.resolution = resolution, .rounding = rounding_moves * resolution};
+    const auto found = walk(t * step_.h, rules, [this](double h) { return look(h); });
+    if (found.end != WalkEnd::settled) return std::nullopt;
+    const double scale = std::max(std::abs(s_[0]), search_.problem().s_ref);
+    const double same = search_.thresholds().identity.merged_distance;
+    if (std::abs(s_[0] - s_[1]) > same * scale) return std::nullopt;  // they pass beside each other
+    Event event = event_here();
+    // By the error of the dense output it may lie on the step before or behind, if there is one.
+    const double place = found.position / step_.h, rounding = rules.rounding / std::abs(step_.h);
+    if (place < -rounding && --event.node == 0) return std::nullopt;
+    if (place > 1.0 + rounding) {
+      if (reached_end(search_.frame(), step_.right)) return std::nullopt;
+      ++event.node;
+    }
+    return event;
+  }
 
  private:
-  Sight look(double h);
-  Event event_here() const;
+  Sight look(double h) {
+    std::array<Complex, 2> slopes;
+    for (std::size_t i = 0; i < 2; ++i) {
+      seen_[i] =
+          look_at_mode(search_.solver, *step_.left, modes_[i]->track, roots_[i], h, ModeFunction::eigenvalue);
+      if (!seen_[i] || seen_[i]->series.size() < 2 || seen_[i]->series[0] == 0.0) return {};
+      roots_[i] = seen_[i]->root;
+      ComplexVector series = seen_[i]->series;
+      if (on_step_.chart(*modes_[i]) == Chart::reciprocal) series = reciprocal_series(series);
+      if (series[0].imag() < 0.0) series = series.conjugate().eval();
+      s_[i] = series[0];
+      slopes[i] = series[1];
+    }
+    ++looks_;
+    const Complex rate = slopes[0] - slopes[1];
+    if (!(std::abs(rate) > 0.0)) return {};
+    return {Sight::Kind::seen, -((s_[0] - s_[1]) / rate).real()};
+  }
+
+  Event event_here() const {
+    std::array<Event, 2> own;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const PathNode& node = seen_[i]->solved.node;
+      const Track& track = node.tracks.front();
+      const std::vector<int> members{static_cast<int>(nearest_root(track.roots, seen_[i]->root))};
+      keep_shape(node, track, members, 0.0, own[i]);
+      keep_sensitivities(search_.problem(), solved_point(search_.problem(), node, search_.solver.counts()),
+                         node, track, members, {}, own[i], search_.solver.counts());
+    }
+    Event event = own[0];
+    event.copies.clear();  // equal modes of copies are modes of the same crossing
+    event.kind = EventKind::crossing;
+    event.p = seen_[0]->solved.node.p;
+    event.s = 0.5 * (s_[0] + s_[1]);
+    event.modes = {std::min(modes_[0]->mode, modes_[1]->mode), std::max(modes_[0]->mode, modes_[1]->mode)};
+    event.node = search_.node;
+    event.retrackings = looks_;
+    event.sensitivity = 0.5 * (own[0].sensitivity + own[1].sensitivity);
+    const ComplexVector apart = own[0].sensitivity - own[1].sensitivity;
+    const Eigen::Index traced = search_.problem().traced;
+    for (Eigen::Index q = 0; q < apart.size(); ++q) {
+      const double shift = -(apart[q] / apart[traced]).real();
+      if (q != traced && std::isfinite(shift)) event.shift[q] = shift;
+    }
+    return event;
+  }
 
   const EventSearch& search_;
   const Step& step_;
@@ -88,75 +151,6 @@ class CrossingWalk {
   std::array<Complex, 2> s_;                       ///< likewise
   int looks_ = 0;
 };
-
-Sight CrossingWalk::look(double h) {
-  std::array<Complex, 2> slopes;
-  for (std::size_t i = 0; i < 2; ++i) {
-    seen_[i] =
-        look_at_mode(search_.solver, *step_.left, modes_[i]->track, roots_[i], h, ModeFunction::eigenvalue);
-    if (!seen_[i] || seen_[i]->series.size() < 2 || seen_[i]->series[0] == 0.0) return {};
-    roots_[i] = seen_[i]->root;
-    ComplexVector series = seen_[i]->series;
-    if (on_step_.chart(*modes_[i]) == Chart::reciprocal) series = reciprocal_series(series);
-    if (series[0].imag() < 0.0) series = series.conjugate().eval();
-    s_[i] = series[0];
-    slopes[i] = series[1];
-  }
-  ++looks_;
-  const Complex rate = slopes[0] - slopes[1];
-  if (!(std::abs(rate) > 0.0)) return {};
-  return {Sight::Kind::seen, -((s_[0] - s_[1]) / rate).real()};
-}
-
-Event CrossingWalk::event_here() const {
-  std::array<Event, 2> own;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const PathNode& node = seen_[i]->solved.node;
-    const Track& track = node.tracks.front();
-    const std::vector<int> members{static_cast<int>(nearest_root(track.roots, seen_[i]->root))};
-    keep_shape(node, track, members, 0.0, own[i]);
-    keep_sensitivities(search_.problem(), solved_point(search_.problem(), node, search_.solver.counts()),
-                       node, track, members, {}, own[i], search_.solver.counts());
-  }
-  Event event = own[0];
-  event.copies.clear();  // equal modes of copies are modes of the same crossing
-  event.kind = EventKind::crossing;
-  event.p = seen_[0]->solved.node.p;
-  event.s = 0.5 * (s_[0] + s_[1]);
-  event.modes = {std::min(modes_[0]->mode, modes_[1]->mode), std::max(modes_[0]->mode, modes_[1]->mode)};
-  event.node = search_.node;
-  event.retrackings = looks_;
-  event.sensitivity = 0.5 * (own[0].sensitivity + own[1].sensitivity);
-  const ComplexVector apart = own[0].sensitivity - own[1].sensitivity;
-  const Eigen::Index traced = search_.problem().traced;
-  for (Eigen::Index q = 0; q < apart.size(); ++q) {
-    const double shift = -(apart[q] / apart[traced]).real();
-    if (q != traced && std::isfinite(shift)) event.shift[q] = shift;
-  }
-  return event;
-}
-
-std::optional<Event> CrossingWalk::from(double t) {
-  for (std::size_t i = 0; i < 2; ++i) roots_[i] = on_step_.root(*modes_[i], t);
-  const double speed = std::max(std::abs(search_.frame().speed(*step_.left)), 1e-300);
-  WalkRules rules;
-  rules.resolution = crossing_resolution * search_.frame().range.length() / speed;
-  rules.rounding = rounding_moves * rules.resolution;
-  const auto found = walk(t * step_.h, rules, [this](double h) { return look(h); });
-  if (found.end != WalkEnd::settled) return std::nullopt;
-  const double scale = std::max(std::abs(s_[0]), search_.problem().s_ref);
-  const double same = search_.thresholds().identity.merged_distance;
-  if (std::abs(s_[0] - s_[1]) > same * scale) return std::nullopt;  // they pass beside each other
-  Event event = event_here();
-  // By the error of the dense output it may lie on the step before or behind, if there is one.
-  const double place = found.position / step_.h, rounding = rules.rounding / std::abs(step_.h);
-  if (place < -rounding && --event.node == 0) return std::nullopt;
-  if (place > 1.0 + rounding) {
-    if (reached_end(search_.frame(), step_.right)) return std::nullopt;
-    ++event.node;
-  }
-  return event;
-}
 
 /// Crossings of two modes on the step: of the roots of their difference near the real axis, those that
 /// Newton's method confirms.

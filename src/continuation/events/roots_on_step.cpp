@@ -1,9 +1,5 @@
 #include "continuation/events/roots_on_step.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace eigentrail {
 namespace {
 
@@ -80,10 +76,6 @@ bool RootsOnStep::is_closest(Complex root) {
   return parts(at - reach) && parts(at + reach);
 }
 
-bool RootsOnStep::given_up() const {
-  return pieces_ > most_pieces;
-}
-
 void RootsOnStep::add(Complex root) {
   roots_.push_back(root);
   if (first_ != nullptr && root.real() > from_) first_->found(root.real());
@@ -92,9 +84,8 @@ void RootsOnStep::add(Complex root) {
 /// Adds the roots between t = begin and t = end, from left to right.
 void RootsOnStep::search(double begin, double end) {
   if (first_ != nullptr && begin > first_->up_to) return;
-  if (given_up()) return;
-  ++pieces_;
-  if (given_up()) return roots_.clear();
+  if (pieces_ > most_pieces) return;
+  if (++pieces_ > most_pieces) return roots_.clear();
   const double length = end - begin;
   if (length < smallest_piece) {
     if (roots_.empty() || std::abs(begin - roots_.back()) > same_piece * smallest_piece) add(begin);

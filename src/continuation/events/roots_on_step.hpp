@@ -32,8 +32,6 @@ struct FirstRoots {
 /// A part of a step, in shares of it.
 struct Stretch {
   double from = 0.0, to = 1.0;
-
-  bool is_whole() const { return from == 0.0 && to == 1.0; }
 };
 
 /// Chebyshev interpolants of the function on a step. Where it is not smooth, because one of the two
@@ -66,7 +64,6 @@ class RootsOnStep {
   bool is_closest(Complex root);
 
  private:
-  bool given_up() const;
   void search(double begin, double end);
   void add(Complex root);
 

@@ -9,6 +9,7 @@
 #include "core/matrix_series.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/steady/kkt_factorization.hpp"
 #include "steady/sparse_kkt.hpp"
 
 namespace eigentrail {
@@ -95,47 +96,91 @@ int direction_of_growth(const EventSearch& search, const PathNode& node) {
   return change > 0.0 ? 1 : change < 0.0 ? -1 : 0;
 }
 
+/// In steps: distance from an end of the step that is a fold, where the sign is taken instead.
+constexpr double beside_fold = 1e-3;
+/// Reciprocal condition up to which rounding decides the sign, as where nothing holds a freedom. It also is
+/// the accuracy of the place.
+constexpr double rounding_decides = 1e-12;
+/// As many as a double has bits: rounding ends the search before.
+constexpr int most_halvings = 53;
+
+/// The path on a step, from 0 at its left end to 1.
+class TrimmedStep {
+ public:
+  TrimmedStep(const EventSearch& search, const Step& step)
+      : problem_(search.problem()),
+        counts_(search.solver.counts().evaluations),
+        path_(0.0, step.h, step.left->path, step.right.path, problem_.traced, true),
+        length_(step.h) {}
+
+  /// Sign of the determinant over that of dp/dsigma; 0 where rounding decides it.
+  int sign(double t) const {
+    const Path path = path_.path(t * length_, 1);
+    const Path at{path.parameters.col(0), path.x.col(0), path.lambda.col(0)};
+    Linearization linearization;
+    TrimDerivatives trim;
+    if (problem_.model.linearize(at, 0, linearization, counts_) ||
+        problem_.model.trim_derivatives(at, trim, counts_))
+      return 0;
+    const KktFactorization kkt(linearization.K[0], linearization.A[0], trim);
+    if (!(kkt.reciprocal_condition() > rounding_decides)) return 0;
+    return path.parameters(problem_.traced, 1) > 0.0 ? kkt.orientation() : -kkt.orientation();
+  }
+
+  double p(double t) const { return path_.path(t * length_, 0).parameters(problem_.traced, 0); }
+
+ private:
+  const PathProblem& problem_;
+  EvaluationCounts& counts_;
+  Bridge path_;
+  double length_;
+};
+
+/// Where the sign changes between a and b, by bisection.
+double place_of_change(const TrimmedStep& path, double a, double b, int sign_at_a) {
+  for (int i = 0; i < most_halvings; ++i) {
+    const double middle = 0.5 * (a + b);
+    const int sign = path.sign(middle);
+    if (sign == 0) return middle;
+    (sign == sign_at_a ? a : b) = middle;
+  }
+  return 0.5 * (a + b);
+}
+
 }  // namespace
 
 FoundEvents find_fold(const EventSearch& search, const PathNode& node, double h) {
   const PathFrame& frame = search.frame();
   if (!frame.plane || !(heading(frame, node, -h) * heading(frame, node, h) < 0.0)) return {};
   if (frame.on_branch_point(node)) return {};
-  FoundEvents found;
-  Event event;
   // With trimmed parameters the path turns back where the steady equations with the conditions are singular;
   // the stiffness, of motion with these parameters held, is not.
   const bool trimmed = search.problem().model.n_trims() > 0;
   const bool is_fold = trimmed || kernel_share(search, node) > search.thresholds().statics.branch_point_share;
-  event.kind = !is_fold ? EventKind::branch_point : is_cusp(search, node) ? EventKind::cusp : EventKind::fold;
-  if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
+  const EventKind of_limit = is_fold && is_cusp(search, node) ? EventKind::cusp : EventKind::fold;
   // The vertex of the parabola p(h): with the distance d to it and the slope at the point, p changes by
   // d / 2 times the slope on the way.
-  event.p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node);
-  event.retrackings = 1;
-  event.node = search.node;
-  if (trimmed) {
+  Event event{.kind = is_fold ? of_limit : EventKind::branch_point,
+              .p = node.p + 0.5 * fold_distance(frame, node) * frame.speed(node),
+              .retrackings = 1,
+              .node = search.node};
+  if (!trimmed) keep_vanishing_motion(search, node, event);
+  if (trimmed || event.kind == EventKind::cusp)  // no other parameter only moves a cusp: it becomes two folds
     leave_unknown(search.problem(), event);
-    found.events.push_back(std::move(event));
-    return found;
-  }
-  keep_vanishing_motion(search, node, event);
-  if (event.kind == EventKind::fold)
+  else if (is_fold)
     keep_fold_sensitivities(search.problem(), node, event, search.solver.counts());
-  else if (event.kind == EventKind::cusp)  // no other parameter only moves it: it becomes two folds, or none
-    leave_unknown(search.problem(), event);
-  found.events.push_back(std::move(event));
+  FoundEvents found{{std::move(event)}};
+  if (!is_fold) found.notes.push_back(note_on_branch_point(search, node.p));
   return found;
 }
 
 FoundEvents find_branch_point(const EventSearch& search, const PathNode& node) {
   if (!search.frame().on_branch_point(node)) return {};
-  Event event;
-  event.kind = EventKind::branch_point;
-  event.p = search.frame().branch_point.p;
-  event.direction = direction_of_growth(search, node);
-  event.retrackings = 1;
-  event.node = search.node;
+  Event event{.kind = EventKind::branch_point,
+              .p = search.frame().branch_point.p,
+              .direction = direction_of_growth(search, node),
+              .retrackings = 1,
+              .node = search.node};
   keep_vanishing_motion(search, node, event);
   event.modes.clear();  // the mode numbers are those of one path; the point belongs to both
   return {{std::move(event)}};
@@ -165,10 +210,28 @@ FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Eve
   event.kind = EventKind::branch_point;
   event.modes.clear();
   event.copies.clear();
-  FoundEvents found;
-  found.notes.push_back(note_on_branch_point(search, event.p));
-  found.events.push_back(std::move(event));
-  return found;
+  std::string note = note_on_branch_point(search, event.p);
+  return {{std::move(event)}, {std::move(note)}};
+}
+
+FoundEvents find_trimmed_crossing(const EventSearch& search, const Step& step) {
+  const PathFrame& frame = search.frame();
+  if (search.problem().model.n_trims() == 0) return {};
+  const auto is_fold = [&](const PathNode& node) {
+    return frame.plane && std::abs(fold_distance(frame, node)) <= on_fold;
+  };
+  const TrimmedStep path(search, step);
+  const double begin = is_fold(*step.left) ? beside_fold : 0.0;
+  const double end = is_fold(step.right) ? 1.0 - beside_fold : 1.0;
+  const int before = path.sign(begin), behind = path.sign(end);
+  if (before * behind >= 0) return {};
+  Event event{.kind = EventKind::branch_point,
+              .p = path.p(place_of_change(path, begin, end, before)),
+              .node = search.node};
+  leave_unknown(search.problem(), event);
+  std::string note = "another trimmed path crosses at " + place_text(search.options, event.p) +
+                     "; the trace stays on its own, and branches there cannot be chosen";
+  return {{std::move(event)}, {std::move(note)}};
 }
 
 }  // namespace eigentrail

@@ -1,7 +1,12 @@
 // Events of the equilibrium path: folds, where it turns back, and branch points, where another path crosses.
+//
+// With trimmed parameters the steady equations with the conditions of the trim are singular where another
+// path crosses: the determinant of their matrix changes its sign there, and dp/dsigma does not. At a fold
+// both do. Zeros of the pencil, in which trimmed parameters are held, say nothing of either.
 #pragma once
 
 #include "continuation/events/event_search.hpp"
+#include "continuation/step/step.hpp"
 
 namespace eigentrail {
 
@@ -20,5 +25,10 @@ FoundEvents find_branch_point(const EventSearch& search, const PathNode& node);
 /// path crosses, a branch point; at a cusp that no fold was seen at, the cusp. Any other event is returned
 /// unchanged.
 FoundEvents as_static_event(const EventSearch& search, const PathNode& node, Event event);
+
+/// The place on a step where another trimmed path crosses; nothing for models without trimmed parameters. Two
+/// crossings on one step are not seen. Costs two dense factorizations per step, and one for every halving of
+/// the step where there is a crossing.
+FoundEvents find_trimmed_crossing(const EventSearch& search, const Step& step);
 
 }  // namespace eigentrail

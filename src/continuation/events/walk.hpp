@@ -6,7 +6,6 @@
 // moves do not shrink, or after too many looks.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 namespace eigentrail {

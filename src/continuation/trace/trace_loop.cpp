@@ -8,11 +8,10 @@
 
 #include "continuation/events/common_collision.hpp"
 #include "continuation/events/criteria_scan.hpp"
-#include "continuation/events/growth_check.hpp"
 #include "continuation/events/meeting_events.hpp"
 #include "continuation/events/part_crossings.hpp"
 #include "continuation/events/static_points.hpp"
-#include "continuation/events/trimmed_crossings.hpp"
+#include "continuation/events/step_checks.hpp"
 #include "continuation/events/veerings.hpp"
 #include "continuation/step/step_error.hpp"
 #include "continuation/step/step_judgement.hpp"
