@@ -1,8 +1,7 @@
 #include "continuation/step/adapted_norm.hpp"
 
+#include <cmath>
 #include <utility>
-
-#include "continuation/step/balancing.hpp"
 
 namespace eigentrail {
 namespace {
@@ -11,6 +10,21 @@ namespace {
 constexpr int sweeps = 20;
 
 }  // namespace
+
+Vector balancing_scales(Matrix squares, int sweeps) {
+  squares.diagonal().setZero();
+  Vector scales = Vector::Ones(squares.rows());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (Eigen::Index i = 0; i < scales.size(); ++i) {
+      const double ratio = std::sqrt(squares.row(i).sum() / squares.col(i).sum());
+      if (!(ratio > 0.0) || !std::isfinite(ratio)) continue;
+      squares.col(i) *= ratio;
+      squares.row(i) /= ratio;
+      scales[i] *= std::sqrt(ratio);
+    }
+  }
+  return scales;
+}
 
 AdaptedNorm AdaptedNorm::balancing(ComplexMatrix Q, const ComplexMatrix& TQ, const ComplexMatrix& adjoint) {
   const Eigen::Index count = Q.cols();

@@ -5,6 +5,11 @@
 
 namespace eigentrail {
 
+/// Scales d such that the rows and columns of D^-1 A D are about equally large beside the diagonal (Osborne,
+/// Journal of the ACM 7, 1960), from the squares of the entries of A (n x n). Rows and columns without
+/// entries keep the scale one. Cost n^2 per sweep.
+Vector balancing_scales(Matrix squares, int sweeps);
+
 /// The norm |S^-1 x|, where S = I + Q (D - I) Q^H with orthonormal columns Q and a positive diagonal D. Where
 /// an operator T is large on few directions only, as for the bearings of a rotor, and its range there is
 /// mapped to little, the norm of S^-1 T S is far below that of T. S is Hermitian.
@@ -13,7 +18,7 @@ class AdaptedNorm {
   /// The plain norm.
   AdaptedNorm() = default;
 
-  /// The norm that balances T (Osborne, Journal of the ACM 7, 1960) as a matrix of norms: one row and column
+  /// The norm that balances T (balancing_scales) as a matrix of norms: one row and column
   /// for every column of Q (n x r, orthonormal), and one for all that is orthogonal to them. The columns of Q
   /// should be the left singular vectors of T with the largest singular values. `TQ`: T Q. `adjoint`: T^H Q.
   static AdaptedNorm balancing(ComplexMatrix Q, const ComplexMatrix& TQ, const ComplexMatrix& adjoint);
