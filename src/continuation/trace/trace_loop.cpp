@@ -24,7 +24,6 @@
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/entering_modes.hpp"
 #include "continuation/tracks/mode_states.hpp"
-#include "continuation/tracks/remedy.hpp"
 #include "continuation/tracks/towards_infinity.hpp"
 
 namespace eigentrail {

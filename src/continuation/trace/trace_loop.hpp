@@ -8,7 +8,6 @@
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
-#include "continuation/tracks/remedy.hpp"
 #include "eigentrail/continuation/trace_observer.hpp"
 
 namespace eigentrail {

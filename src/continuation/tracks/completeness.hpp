@@ -1,6 +1,8 @@
 // Checks that no mode is lost and none is followed by two tracks.
 #pragma once
 
+#include <optional>
+
 #include "continuation/tracks/mode_order.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
@@ -24,6 +26,15 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
 /// assurance `merged_assurance` with the space of the other.
 bool have_common_eigenpair(const Track& a, const Track& b, double reference,
                            const IdentityThresholds& thresholds);
+
+/// Whether a track of the node has an eigenpair in common with this one.
+bool is_followed(const PathProblem& problem, const PathNode& node, const Track& track);
+
+/// The track at `node` that a pair leads to. `start`: the pair elsewhere, or as predicted here, Z in physical
+/// coordinates. Empty where the corrector does not converge, the shape becomes another one, or another track
+/// has the eigenpair. The numbers of its modes are not set.
+std::optional<Track> recognize(const PathProblem& problem, const PathNode& node, InvariantPair start,
+                               RunCounts& counts);
 
 /// Whether the backward error of a track is so large that it is no eigenpair, or two tracks have the same
 /// eigenpair (have_common_eigenpair). Cost O(n) for every two tracks with such eigenvalues.

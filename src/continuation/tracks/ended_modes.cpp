@@ -1,9 +1,8 @@
 #include "continuation/tracks/ended_modes.hpp"
 
-#include <algorithm>
 #include <sstream>
 
-#include "continuation/tracks/recognition.hpp"
+#include "continuation/tracks/completeness.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/modes/invariants.hpp"
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "continuation/point/point_solver.hpp"
-#include "continuation/tracks/arrival.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/guard_modes.hpp"
 #include "continuation/tracks/members.hpp"
-#include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
+#include "continuation/tracks/towards_infinity.hpp"
 #include "eigentrail/continuation/path_step.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "modes/energy_stability.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "continuation/tracks/completeness.hpp"
-#include "continuation/tracks/recognition.hpp"
 #include "continuation/tracks/regrouping.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/path_step.hpp"

@@ -1,5 +1,6 @@
 #include "continuation/tracks/towards_infinity.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +8,7 @@
 #include "continuation/tracks/ended_modes.hpp"
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/regrouping.hpp"
+#include "core/reciprocal_condition.hpp"
 
 namespace eigentrail {
 namespace {
@@ -14,6 +16,9 @@ namespace {
 /// The step that ends where an eigenvalue has come back is longer by this factor: its place of infinity is
 /// known from two terms of a series.
 constexpr double well_behind = 1.2;
+/// Reciprocal condition of M up to which an eigenvalue may be infinite: its |1/s| is about this share of that
+/// of a typical one, squared.
+constexpr double singular_mass = 1e-9;
 
 /// Signed distance of the place where mu vanishes like a root; empty if it does not.
 std::optional<double> distance_of_infinity(const ComplexVector& mu, const InfinityThresholds& thresholds) {
@@ -26,6 +31,12 @@ std::optional<double> distance_of_infinity(const ComplexVector& mu, const Infini
 }
 
 }  // namespace
+
+bool has_arrived(const PathProblem& problem, const PathNode& node, Complex s,
+                 const InfinityThresholds& thresholds) {
+  if (std::abs(s) <= thresholds.arrived * problem.s_max) return true;
+  return reciprocal_condition(Eigen::PartialPivLU<Matrix>(node.pencil.M[0])) > singular_mass;
+}
 
 std::vector<RunToInfinity> runs_to_infinity(const PathNode& node, double direction,
                                             const InfinityThresholds& thresholds) {
