@@ -17,14 +17,13 @@
 #include "continuation/step/step_error.hpp"
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/step/stored_step.hpp"
-#include "continuation/trace/complex_parts.hpp"
-#include "continuation/trace/narrow_landings.hpp"
 #include "continuation/trace/stop_remarks.hpp"
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/entering_modes.hpp"
 #include "continuation/tracks/mode_states.hpp"
 #include "continuation/tracks/towards_infinity.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 
 namespace eigentrail {
 namespace {

@@ -8,7 +8,7 @@
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
-#include "eigentrail/continuation/trace_observer.hpp"
+#include "eigentrail/continuation/trace.hpp"
 
 namespace eigentrail {
 

@@ -72,6 +72,15 @@ PathProblem trace_problem(const Model& model, const TraceOptions& options, Basis
 /// meeting: only nearer meetings limit the step.
 double parting_reach(const TraceOptions& options, int order);
 
+/// Whether an eigenvalue of a complex part is near the real axis at a point, or below it.
+bool is_near_real_axis(const PathProblem& problem, const PathNode& node);
+
+/// Makes all conjugate pairs of the parts real parts. Returns the new index of every part.
+std::vector<int> join_pairs(PathProblem& problem);
+
+/// Follows all conjugate pairs as real parts, from the last point on.
+void join_conjugate_parts(PathProblem& problem, TraceState& state);
+
 /// The state as bytes, with their checksum, the sizes of the problem and what the first point determined of
 /// it.
 std::string save_state(const TraceState& state, const PathProblem& problem, const TraceOptions& options);
