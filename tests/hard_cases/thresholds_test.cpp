@@ -13,10 +13,34 @@ namespace {
 constexpr int random_samples = 20;  // eigenvalues do not depend on the thresholds
 constexpr Thresholds defaults;
 
+/// Calls visit(name, member) for every threshold.
+template <class Self, class Visitor>
+void fields(Self& self, Visitor&& visit) {
+  visit("rounding.entries", self.rounding.entries);
+  visit("criterion.near_axis", self.criterion.near_axis);
+  visit("criterion.extremum", self.criterion.extremum);
+  visit("meeting.at_point", self.meeting.at_point);
+  visit("meeting.narrow", self.meeting.narrow);
+  visit("meeting.beside_axis", self.meeting.beside_axis);
+  visit("meeting.on_axis", self.meeting.on_axis);
+  visit("veering.widest", self.veering.widest);
+  visit("event.same_place", self.event.same_place);
+  visit("event.same_double_root", self.event.same_double_root);
+  visit("event.same_veering", self.event.same_veering);
+  visit("event.same_eigenvalue", self.event.same_eigenvalue);
+  visit("event.known_veering_share", self.event.known_veering_share);
+  visit("event.known_veering", self.event.known_veering);
+  visit("statics.branch_point_share", self.statics.branch_point_share);
+  visit("statics.zero", self.statics.zero);
+  visit("identity.merged_distance", self.identity.merged_distance);
+  visit("identity.merged_assurance", self.identity.merged_assurance);
+  visit("identity.least_assurance", self.identity.least_assurance);
+}
+
 /// Names of all thresholds that are varied.
 std::vector<std::string> threshold_names() {
   std::vector<std::string> names;
-  Thresholds::fields(defaults, [&](const std::string& name, double) {
+  fields(defaults, [&](const std::string& name, double) {
     if (name != "veering.widest") names.push_back(name);
   });
   return names;
@@ -24,7 +48,7 @@ std::vector<std::string> threshold_names() {
 
 Thresholds changed(const std::string& name, double factor) {
   Thresholds thresholds;
-  Thresholds::fields(thresholds, [&](const std::string& other, double& value) {
+  fields(thresholds, [&](const std::string& other, double& value) {
     if (other == name) value *= factor;
   });
   return thresholds;
@@ -59,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(All, ThresholdCase, testing::ValuesIn(hard_cases()),
 /// The list of thresholds names each of them once.
 TEST(Thresholds, AreListedOnce) {
   std::vector<std::string> names;
-  Thresholds::fields(defaults, [&](const std::string& name, double value) {
+  fields(defaults, [&](const std::string& name, double value) {
     names.push_back(name);
     EXPECT_GT(value, 0.0) << name;
   });

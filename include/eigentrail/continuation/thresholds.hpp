@@ -99,30 +99,6 @@ struct Thresholds {
   EventThresholds event = {};
   StaticThresholds statics = {};
   IdentityThresholds identity = {};
-
-  /// Calls visit(name, member) for every threshold.
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor&& visit) {
-    visit("rounding.entries", self.rounding.entries);
-    visit("criterion.near_axis", self.criterion.near_axis);
-    visit("criterion.extremum", self.criterion.extremum);
-    visit("meeting.at_point", self.meeting.at_point);
-    visit("meeting.narrow", self.meeting.narrow);
-    visit("meeting.beside_axis", self.meeting.beside_axis);
-    visit("meeting.on_axis", self.meeting.on_axis);
-    visit("veering.widest", self.veering.widest);
-    visit("event.same_place", self.event.same_place);
-    visit("event.same_double_root", self.event.same_double_root);
-    visit("event.same_veering", self.event.same_veering);
-    visit("event.same_eigenvalue", self.event.same_eigenvalue);
-    visit("event.known_veering_share", self.event.known_veering_share);
-    visit("event.known_veering", self.event.known_veering);
-    visit("statics.branch_point_share", self.statics.branch_point_share);
-    visit("statics.zero", self.statics.zero);
-    visit("identity.merged_distance", self.identity.merged_distance);
-    visit("identity.merged_assurance", self.identity.merged_assurance);
-    visit("identity.least_assurance", self.identity.least_assurance);
-  }
 };
 
 }  // namespace eigentrail
