@@ -1,7 +1,6 @@
 // The scene's [events] table: which events are searched for in addition to those of stability.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <vector>
 

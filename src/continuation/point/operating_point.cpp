@@ -176,14 +176,6 @@ Complex without_rounding(const OperatingMode& mode) {
   return std::abs(mode.s.real()) <= mode.rounding ? Complex(0.0, mode.s.imag()) : mode.s;
 }
 
-double natural_frequency(const OperatingMode& mode) {
-  return std::abs(mode.s);
-}
-
-double damping_ratio(const OperatingMode& mode) {
-  return -mode.s.real() / std::abs(mode.s);
-}
-
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {
   check_within_samples(setup, values);
   PathProblem problem = problem_along(*setup.model, setup.options.parameter);
