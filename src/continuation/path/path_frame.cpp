@@ -1,7 +1,6 @@
 #include "continuation/path/path_frame.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/positive_or_one.hpp"

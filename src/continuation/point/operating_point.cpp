@@ -13,7 +13,6 @@
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
-#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/participation.hpp"
 #include "eigentrail/modes/rotor_names.hpp"
 #include "eigentrail/modes/spectrum.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/band_matrix.hpp"
-#include "core/products.hpp"
 
 namespace eigentrail {
 

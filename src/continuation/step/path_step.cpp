@@ -10,7 +10,6 @@
 
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
-#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {

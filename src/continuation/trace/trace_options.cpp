@@ -7,7 +7,6 @@
 
 #include "continuation/trace/mode_options.hpp"
 #include "core/texts.hpp"
-#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"

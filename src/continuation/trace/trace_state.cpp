@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "eigentrail/continuation/scene_parts.hpp"
-#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail {
 namespace {

@@ -26,7 +26,7 @@ struct BranchPassage {
   std::size_t passed = 0;  ///< branch points so far
   int tries = 0;           ///< attempts to build a bridge from the last point
   /// The other path at the branch point that was reached last. Not saved, because it is used at once.
-  std::optional<OtherPath> other = {};
+  std::optional<PathPlane> other = {};
 };
 
 /// What is remembered of the last steps.
