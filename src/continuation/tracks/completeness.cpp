@@ -5,11 +5,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
-#include "continuation/tracks/towards_infinity.hpp"
 #include "core/orthonormal.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "core/singular_vectors.hpp"
@@ -34,6 +32,9 @@ constexpr double same_root = 1e-4;
 constexpr double unrelated = 1e6;
 /// A track with a larger backward error is no eigenpair: corrected pairs have errors close to rounding.
 constexpr double largest_backward_error = 1e-8;
+/// Reciprocal condition of M up to which an eigenvalue may be infinite: its |1/s| is about this share of that
+/// of a typical one, squared.
+constexpr double singular_mass = 1e-9;
 
 /// All finite eigenvalues that the tracks represent, with the conjugates of complex pairs.
 std::vector<Complex> all_eigenvalues(const PathNode& node) {
@@ -199,6 +200,12 @@ std::optional<Track> recognize(const PathProblem& problem, const PathNode& node,
   Track track = differentiate_track(problem, node, std::move(pair), counts);
   if (!track.functions.allFinite() || is_followed(problem, node, track)) return std::nullopt;
   return track;
+}
+
+bool has_arrived(const PathProblem& problem, const PathNode& node, Complex s,
+                 const InfinityThresholds& thresholds) {
+  if (std::abs(s) <= thresholds.arrived * problem.s_max) return true;
+  return reciprocal_condition(Eigen::PartialPivLU<Matrix>(node.pencil.M[0])) > singular_mass;
 }
 
 bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {

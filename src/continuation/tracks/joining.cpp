@@ -1,10 +1,8 @@
 #include "continuation/tracks/joining.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "continuation/step/step_error.hpp"
-#include "continuation/tracks/grouping_errors.hpp"
 #include "continuation/tracks/guard_modes.hpp"
 
 namespace eigentrail {
