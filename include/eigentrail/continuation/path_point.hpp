@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "eigentrail/continuation/prediction.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
 
