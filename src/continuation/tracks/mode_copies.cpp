@@ -125,7 +125,7 @@ namespace {
 /// rounding changes it by eps / distance^2, relatively: 2e-4 at this limit, times the condition of the block.
 constexpr double coinciding_roots = 1e-6;
 /// Smallest norm of a block as a scale: keeps the limit above zero where all eigenvalues are zero.
-constexpr double least_scale = 1e-300;
+constexpr double least_block_norm = 1e-300;
 
 /// Eigenvectors of Lambda as columns, in the order of the roots of the track.
 ComplexMatrix vectors_of(const Track& track) {
@@ -141,7 +141,7 @@ ComplexMatrix vectors_of(const Track& track) {
 
 /// Derivative of root i of a track along the path, in its chart. NaN where another root is too close.
 Complex slope_of(const Track& track, Eigen::Index i) {
-  const double scale = std::max(track.pair.Lambda.norm(), least_scale);
+  const double scale = std::max(track.pair.Lambda.norm(), least_block_norm);
   const double nearest = distance_from_others(track.roots, {static_cast<int>(i)});
   if (!(nearest > coinciding_roots * scale)) return {NAN, NAN};
   const ComplexVector series = root_series(track.functions, track.roots[i]);
