@@ -1,4 +1,5 @@
-// Checks that no mode is lost and none is followed by two tracks.
+// Checks that no mode is lost and none is followed by two tracks, and recognition of a mode from another
+// point.
 #pragma once
 
 #include <optional>
