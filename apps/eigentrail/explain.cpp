@@ -8,8 +8,6 @@
 #include <numeric>
 
 #include "core/texts.hpp"
-#include "eigentrail/continuation/family_parts.hpp"
-#include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/path_point.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"

@@ -52,8 +52,8 @@ Records records_of(const std::vector<ShownPoint>& points) {
   for (const ShownPoint& point : points) {
     for (std::size_t i = 0; i < point.modes.size(); ++i) {
       const OperatingMode& mode = point.modes[i];
-      records.rows.push_back({point.p, count(i + 1), mode.s.real(), mode.s.imag(),
-                              in_hertz(natural_frequency(mode)), in_hertz(mode.s.imag()), damping_ratio(mode),
+      records.rows.push_back({point.p, count(i + 1), mode.s.real(), mode.s.imag(), in_hertz(std::abs(mode.s)),
+                              in_hertz(mode.s.imag()), -mode.s.real() / std::abs(mode.s),
                               log_decrement(mode.s), mode.condition, mode.rounding,
                               printable(mode.what_moves)});
       if (!point.errors) continue;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/archive.hpp"
-#include "eigentrail/continuation/prediction.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "continuation/step/path_step.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/modes/invariants.hpp"
@@ -114,8 +113,8 @@ class ModeStretch {
                        ": the eigenvalues of a block change places too often to be drawn; is the file "
                        "damaged? Trace the scene again");
     }
-    return counted_eigenvalues(step, loci_.eigenvalues.row(node).transpose(),
-                               loci_.eigenvalues.row(node + 1).transpose(), t, roots_.used)[mode_];
+    return step_eigenvalues(step, loci_.eigenvalues.row(node).transpose(),
+                            loci_.eigenvalues.row(node + 1).transpose(), t, &roots_.used)[mode_];
   }
 
   /// `left`, `right`: shares of the step at its ends in which rounding hides the eigenvalues.

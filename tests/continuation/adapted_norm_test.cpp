@@ -1,5 +1,5 @@
 // A norm in which an operator that is far from normal is small.
-#include "continuation/step/adapted_norm.hpp"
+#include "continuation/step/ball_norm.hpp"
 
 #include <gtest/gtest.h>
 

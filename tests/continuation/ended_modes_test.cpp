@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "continuation/planted_search.hpp"
-#include "continuation/tracks/towards_infinity.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test::ended_modes_test {

@@ -1,5 +1,5 @@
 // The norm in which stiff and soft directions of a pencil count alike, and the norm of a ball that uses it.
-#include "continuation/step/energy_norm.hpp"
+#include "continuation/step/ball_norm.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "continuation/step/ball_norm.hpp"
 #include "support/families.hpp"
 
 namespace eigentrail::test::energy_norm_test {

@@ -1,7 +1,7 @@
 // Estimates of the error that the dense output would have if modes were followed in other blocks or charts.
 // They are compared with the actual error, and vanish where the functions of the other choice are
 // polynomials.
-#include "continuation/tracks/grouping_errors.hpp"
+#include "continuation/tracks/partner.hpp"
 
 #include <gtest/gtest.h>
 

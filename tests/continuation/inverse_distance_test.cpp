@@ -1,5 +1,5 @@
 // The separation of blocks of eigenvalues.
-#include "continuation/step/inverse_distance.hpp"
+#include "continuation/step/modal_certificate.hpp"
 
 #include <gtest/gtest.h>
 

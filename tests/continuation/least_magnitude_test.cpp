@@ -1,4 +1,4 @@
-#include "continuation/step/least_magnitude.hpp"
+#include "continuation/step/step_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The modes at a point as they are handed out: eigenvalues, slopes and shapes against closed forms.
-#include "continuation/tracks/mode_states.hpp"
+#include "continuation/tracks/mode_copies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "eigentrail/continuation/order_choice.hpp"
+#include "eigentrail/continuation/route_choice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The second derivative of a pair's equations, against the change of the Jacobian: the equations are cubic,
 // so that half the difference of the Jacobians at U + V and U - V is F''(V) exactly.
-#include "continuation/step/pair_curvature.hpp"
+#include "continuation/step/jacobian_change.hpp"
 
 #include <gtest/gtest.h>
 

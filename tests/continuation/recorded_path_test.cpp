@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "continuation/step/path_step.hpp"
-
 namespace eigentrail::test::recorded_path_test {
 namespace {
 
@@ -178,11 +176,11 @@ TEST(CountedEigenvalues, AreStepEigenvaluesAndTheirWorkAddsUp) {
   const ComplexVector left{{Complex(0.0, 1.5), Complex(0.0, 2.5)}};
   const ComplexVector right = left.reverse();
   std::size_t work = 10;
-  const ComplexVector once = counted_eigenvalues(step, left, right, 0.3, work);
+  const ComplexVector once = step_eigenvalues(step, left, right, 0.3, &work);
   EXPECT_EQ(once, step_eigenvalues(step, left, right, 0.3));
   const std::size_t of_one = work - 10;
   EXPECT_GT(of_one, 0U);
-  counted_eigenvalues(step, left, right, 0.3, work);
+  step_eigenvalues(step, left, right, 0.3, &work);
   EXPECT_EQ(work, 10 + 2 * of_one);
 }
 
@@ -192,15 +190,15 @@ TEST(CountedEigenvalues, CostMoreWhereRootsComeClose) {
   const ComplexVector right = left.reverse();
   std::size_t near = 0;
   std::size_t far = 0;
-  counted_eigenvalues(step, left, right, 0.499, near);
-  counted_eigenvalues(step, left, right, 0.1, far);
+  step_eigenvalues(step, left, right, 0.499, &near);
+  step_eigenvalues(step, left, right, 0.1, &far);
   EXPECT_GT(near, far);
 }
 
 TEST(CountedEigenvalues, OfSingleModesCostNoPolynomial) {
   std::size_t work = 0;
-  counted_eigenvalues(straight(0.0, 1.0), ComplexVector{{Complex(-0.1, 2.0)}},
-                      ComplexVector{{Complex(-0.1, 3.0)}}, 0.3, work);
+  step_eigenvalues(straight(0.0, 1.0), ComplexVector{{Complex(-0.1, 2.0)}},
+                   ComplexVector{{Complex(-0.1, 3.0)}}, 0.3, &work);
   EXPECT_EQ(work, 0U);
 }
 

@@ -1,5 +1,5 @@
 // Remedies for rejected steps other than shorter ones.
-#include "continuation/tracks/remedy.hpp"
+#include "continuation/tracks/joining.hpp"
 
 #include <gtest/gtest.h>
 

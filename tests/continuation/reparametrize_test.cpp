@@ -1,7 +1,7 @@
 // Changes of the coordinate along the path: compared with paths that are polynomials in the new coordinate.
 // For any path, the new coordinate is the one defined by the plane, and the inverse change restores every
 // series.
-#include "continuation/path/reparametrize.hpp"
+#include "continuation/path/path_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "continuation/planted_search.hpp"
-#include "continuation/step/step_certificate.hpp"
+#include "continuation/step/step_judgement.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail::test::stored_step_test {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "eigentrail/continuation/family_parts.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "support/matrix_text.hpp"
 #include "support/resumed.hpp"

@@ -8,8 +8,8 @@
 //
 // are evaluated at sample points of the piece. If some r > 0 satisfies Y + Z1 r + Z2 r^2/2 <= r, exactly one
 // pair lies within r of U(t), on the whole piece. Any norm serves; one that belongs to the piece makes the
-// bounds far smaller where eigenvalues are sensitive or stiffnesses far apart (energy_norm.hpp,
-// adapted_norm.hpp, modal_bounds.hpp). The pairs within r are the Newton-Kantorovich ball about U(t), and the
+// bounds far smaller where eigenvalues are sensitive or stiffnesses far apart (ball_norm.hpp,
+// modal_bounds.hpp). The pairs within r are the Newton-Kantorovich ball about U(t), and the
 // test closes if there is such an r. Pieces on which it does not close are halved. If it closes on all
 // pieces, no other pair can have been exchanged with this one.
 //

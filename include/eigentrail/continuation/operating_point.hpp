@@ -22,10 +22,6 @@ struct OperatingMode {
 /// The eigenvalue as it is shown: zero where it is, or its real part is, within rounding.
 Complex without_rounding(const OperatingMode& mode);
 
-/// Natural frequency |s|, rad/s; damping ratio -Re s / |s|, NaN at zero.
-double natural_frequency(const OperatingMode& mode);
-double damping_ratio(const OperatingMode& mode);
-
 struct OperatingPoint {
   double p = 0.0;
   std::string fault = {};                 ///< why there is no spectrum; empty if there is one

@@ -4,9 +4,8 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "eigentrail/continuation/prediction.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 
 namespace eigentrail {
 

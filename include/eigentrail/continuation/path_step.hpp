@@ -36,15 +36,19 @@ struct PathStep {
 ComplexVector follow_roots(const DenseBlock& block, double length, const ComplexVector& roots, double from,
                            double to, bool* told_apart = nullptr);
 
-/// The same from the interpolant of the block's functions.
+/// The same from the interpolant of the block's functions. The number of roots that were solved for is added
+/// to `work`, if given.
 ComplexVector follow_roots(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
-                           double to, bool* told_apart = nullptr);
+                           double to, bool* told_apart = nullptr, std::size_t* work = nullptr);
 
 /// Eigenvalues s of all modes at t in [0, 1]; NaN for a mode that does not exist on the step. `at_left` and
 /// `at_right` are the eigenvalues of all modes at the ends; they determine which eigenvalue of a block
-/// belongs to which mode. A complex pair is represented by its member with Im s >= 0.
+/// belongs to which mode. A complex pair is represented by its member with Im s >= 0. The number
+/// of roots of every block that was solved for is added to `work`, if given: in a damaged or malicious file
+/// the roots of a block may change places so often that following them would take very long; the count
+/// allows a limit.
 ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_left,
-                               const ComplexVector& at_right, double t);
+                               const ComplexVector& at_right, double t, std::size_t* work = nullptr);
 
 /// Whether the coordinate of the step is the traced parameter itself.
 bool follows_parameter(const PathStep& step);

@@ -63,19 +63,17 @@ class PathRecorder {
   /// Starts with the points and steps of `path`, for a trace that is resumed.
   explicit PathRecorder(const RecordedPath& path);
 
-  int points() const { return static_cast<int>(p_.size()); }
+  int points() const { return static_cast<int>(path_.n_nodes()); }
   void append(const TracePoint& point);
 
   /// All points and steps so far.
   RecordedPath path() const;
 
  private:
-  std::vector<double> p_;
-  std::vector<std::vector<Complex>> eigenvalues_;  ///< per node, by mode
-  std::vector<std::vector<double>> rounding_;
-  std::vector<int> growing_unfollowed_;
-  std::vector<PathStep> steps_;
-  std::size_t n_modes_ = 0;
+  RecordedPath path_;                       ///< all but the matrices
+  std::vector<ComplexVector> eigenvalues_;  ///< per node, by mode
+  std::vector<Vector> rounding_;
+  Eigen::Index n_modes_ = 0;
 };
 
 }  // namespace eigentrail

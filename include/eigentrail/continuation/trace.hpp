@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-#include "eigentrail/continuation/trace_observer.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 

@@ -19,7 +19,7 @@
 namespace eigentrail {
 
 /// Order of the series along the curves of boundaries, if the options give none. Traces choose the order by
-/// its cost instead (order_choice.hpp).
+/// its cost instead (route_choice.hpp).
 constexpr int usual_order = 3;
 
 struct TraceOptions {

@@ -1,6 +1,8 @@
-// The result of a trace, and the data that it hands to its observer.
+// The result of a trace, the data that it hands to its observer, its callbacks, and the checkpoints from
+// which it can be resumed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -90,6 +92,25 @@ struct TracePoint {
   std::vector<ModeState> modes;    ///< all modes that exist at the point
   const PathStep* step = nullptr;  ///< from the point before; null at the first point
   int growing_unfollowed = -1;     ///< number of growing modes that are not followed; -1: not known
+};
+
+/// The state of a trace between two points. All points so far have been handed to the observer.
+class Checkpoint {
+ public:
+  virtual const TraceResult& so_far() const = 0;
+  /// The state of the trace as bytes, for resume_trace. Only the same version of the program can read them.
+  virtual std::string save() const = 0;
+
+ protected:
+  ~Checkpoint() = default;
+};
+
+/// Functions that a trace calls: `started` once, then `point` for every point, and `checkpoint` between two
+/// points. The last two return whether the trace shall go on.
+struct TraceObserver {
+  std::function<void(const TraceStart&)> started = [](const TraceStart&) {};
+  std::function<bool(const TracePoint&)> point = [](const TracePoint&) { return true; };
+  std::function<bool(const Checkpoint&)> checkpoint = [](const Checkpoint&) { return true; };
 };
 
 }  // namespace eigentrail

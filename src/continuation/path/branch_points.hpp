@@ -4,6 +4,11 @@
 // Test function: the determinant of the steady equations bordered by the path's plane. It changes sign at a
 // branch point, but not at a fold. Up to a factor without a change of sign it is det(T^T K T) / (dp /
 // dsigma), with the coordinate sigma along the path. Both terms follow from the series at a point.
+//
+// A projected scene spans few of the motions of the whole. Its own stiffness is singular elsewhere than that
+// of the whole, whose equilibrium the path consists of: a structure may buckle in a motion that is none of
+// the followed modes. So there it is the determinant of the whole, [K, A^T; A, 0], by sparse LU; both
+// determinants have the same zeros and signs up to a constant factor.
 #pragma once
 
 #include "continuation/point/point_solver.hpp"

@@ -136,20 +136,20 @@ BranchSurvey survey_branch_point(const PointSolver& solver, const PathNode& node
   const Departures changes = departures_on(solver, *plane, *bridge, node);
   const PathRange& range = solver.frame().range;
   const double towards = (range.to - range.from) * (changes.rise_ahead - changes.rise_back);
-  OtherPath other{*plane, 1.0};
-  if (changes.is_pitchfork() ? changes.move[changes.most] < 0.0 : towards < 0.0) other.direction = -1.0;
+  const bool turns = changes.is_pitchfork() ? changes.move[changes.most] < 0.0 : towards < 0.0;
+  const double direction = turns ? -1.0 : 1.0;
   const PathProblem& problem = solver.problem();
-  return {other, note + (changes.is_pitchfork() ? " (a pitchfork)" : "") +
-                     "; branch 1 is straight on, branch 2 leaves it (" +
-                     in_words(problem, changes, other.direction) + "), branch 3 does so the other way (" +
-                     in_words(problem, changes, -other.direction) + "); the trace took " +
-                     std::to_string(choice)};
+  return {PathPlane{direction * plane->x, direction * plane->p},
+          note + (changes.is_pitchfork() ? " (a pitchfork)" : "") +
+              "; branch 1 is straight on, branch 2 leaves it (" + in_words(problem, changes, direction) +
+              "), branch 3 does so the other way (" + in_words(problem, changes, -direction) +
+              "); the trace took " + std::to_string(choice)};
 }
 
 std::optional<OtherStart> start_on_other_path(const PointSolver& solver, const PathNode& node,
-                                              const OtherPath& other, int choice) {
-  const double direction = choice == 2 ? other.direction : -other.direction;
-  const PathPlane plane{direction * other.plane.x, direction * other.plane.p};
+                                              const PathPlane& other, int choice) {
+  const double direction = choice == 2 ? 1.0 : -1.0;
+  const PathPlane plane{direction * other.x, direction * other.p};
   const std::optional<Bridge> bridge = bridge_along(solver, plane, node);
   if (!bridge) return std::nullopt;
   OtherStart start{solver.frame(), {}, 0.5 * std::abs(bridge->end() - bridge->begin())};

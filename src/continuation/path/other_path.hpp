@@ -13,16 +13,12 @@
 
 namespace eigentrail {
 
-/// A plane across the other path. `direction`: sign of its coordinate in the direction of choice 2.
-struct OtherPath {
-  PathPlane plane;
-  double direction = 1.0;
-};
-
 /// The result of the search for the other path.
 struct BranchSurvey {
-  std::optional<OtherPath> other;  ///< empty where the other path was not found
-  std::string note;                ///< for the user: the choices in words
+  /// A plane across the other path, its coordinate growing in the direction of choice 2; empty where that
+  /// path was not found.
+  std::optional<PathPlane> other;
+  std::string note;  ///< for the user: the choices in words
 };
 
 /// The choice (1 to 3) at a branch point, which are counted from 0. `wanted` lists the choices in order; a
@@ -43,6 +39,6 @@ struct OtherStart {
 
 /// Starts on the other path in the direction of `choice`, 2 or 3. Empty if the path is not found.
 std::optional<OtherStart> start_on_other_path(const PointSolver& solver, const PathNode& node,
-                                              const OtherPath& other, int choice);
+                                              const PathPlane& other, int choice);
 
 }  // namespace eigentrail

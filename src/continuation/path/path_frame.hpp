@@ -2,6 +2,7 @@
 //
 // It is the traced parameter p itself or, where the path turns back, the distance from a point along the
 // normal of a plane in (x, u, p), u the trimmed parameters (pseudo-arclength, Keller 1977), called sigma.
+// A change of the coordinate composes all series of a point with that of the old coordinate in the new one.
 // Over a branch point, where the steady equations are singular, the path comes from a bridge (bridge.hpp).
 #pragma once
 
@@ -9,7 +10,7 @@
 #include <optional>
 
 #include "continuation/path/bridge.hpp"
-#include "continuation/path/reparametrize.hpp"
+#include "eigentrail/continuation/path_point.hpp"
 
 namespace eigentrail {
 
@@ -19,6 +20,12 @@ struct PathRange {
   double from = 0.0, to = 0.0;
 
   double length() const { return std::abs(to - from); }
+};
+
+/// Scales by which x and p are divided, and trimmed parameters, each by its own.
+struct PathScales {
+  double x = 1.0, p = 1.0;
+  Vector u = {};
 };
 
 /// The coordinate in use, with what belongs to it.
@@ -66,6 +73,24 @@ struct PathFrame {
   /// exact values.
   Path path_on_bridge(double coordinate, int order) const;
 };
+
+/// The plane through the point whose normal is the tangent of the path, in scaled coordinates. `direction`:
+/// sign of the steps in the coordinate of the series. The new coordinate increases along the path, by one per
+/// scaled unit of length.
+PathPlane plane_along(const Path& path, int traced, const PathScales& scales, double direction);
+
+/// Rewrites all series of the point in the plane's coordinate. `traced`: index of the traced parameter.
+void reparametrize(PathNode& node, const PathPlane& plane, int traced);
+
+/// The same for the path only.
+void reparametrize(Path& path, const PathPlane& plane, int traced);
+
+/// Whether the last term of the series of x (of u where x rests) and p, scaled, is much smaller in the
+/// coordinate of `turned` than in that of `path`, on a step that has the length h in the latter.
+bool falls_faster(const Path& turned, const Path& path, int traced, const PathScales& scales, double h);
+
+/// Cosine of the angle between the normal of the plane and the path, in scaled coordinates.
+double slant(const PathPlane& plane, const Path& path, int traced, const PathScales& scales);
 
 /// Takes the size of a point of the path into the frame's scales. Trimmed parameters are at least as large as
 /// their guesses in the scene, or one.

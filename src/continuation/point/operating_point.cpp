@@ -13,7 +13,6 @@
 #include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/model/sampled_data.hpp"
 #include "eigentrail/modes/energy_shares.hpp"
-#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/participation.hpp"
 #include "eigentrail/modes/rotor_names.hpp"
 #include "eigentrail/modes/spectrum.hpp"
@@ -22,36 +21,25 @@
 namespace eigentrail {
 namespace {
 
-/// An eigenvalue s with its right vector, and what follows from the left one.
-class ModeAtPoint {
- public:
-  /// `z` is that of QZ.
-  ModeAtPoint(const ReducedPencil& pencil, Complex s, const ComplexVector& z, double scale)
-      : M_(pencil.M[0]), C_(pencil.C[0]), K_(pencil.K[0]), s_(s), z_(z.normalized()) {
-    const double s_ref = share_that_is_zero * scale;
-    left_ = eigenvector_near(M_.transpose(), C_.transpose(), K_.transpose(), s_, s_ref);  // y^T P(s) = 0
-    slope_ = 2.0 * s_ * (M_ * z_) + C_ * z_;
-    const Complex product = left_.transpose() * slope_;
-    const double magnitude = std::norm(s_) * M_.norm() + std::abs(s_) * C_.norm() + K_.norm();
-    backward_error_ = magnitude > 0.0 ? force().norm() / magnitude : 0.0;
-    condition_ = magnitude * left_.norm() / (std::abs(product) * std::max(std::abs(s_), s_ref));
-    if (!(condition_ * std::numeric_limits<double>::epsilon() < 1.0))
-      condition_ = std::numeric_limits<double>::infinity();
-  }
-
-  OperatingMode mode(double rounding) const { return {s_, condition_, backward_error_, rounding, {}, {}}; }
-
-  /// By how much each equation and its coordinate take part in the mode, as shares.
-  Vector shares() const { return participation(left_, slope_, z_, std::isfinite(condition_)); }
-
- private:
-  ComplexVector force() const { return s_ * (s_ * (M_ * z_) + C_ * z_) + K_ * z_; }
-
-  const Matrix &M_, &C_, &K_;
-  Complex s_;
-  ComplexVector z_, left_, slope_;
-  double condition_ = 0.0, backward_error_ = 0.0;
-};
+/// The mode of an eigenvalue s with its right vector `of_QZ`, and what follows from the left one. `shares`
+/// are set to those by which each equation and its coordinate take part in the mode.
+OperatingMode mode_at(const ReducedPencil& pencil, Complex s, const ComplexVector& of_QZ, double scale,
+                      double rounding, Vector& shares) {
+  const Matrix &M = pencil.M[0], &C = pencil.C[0], &K = pencil.K[0];
+  const ComplexVector z = of_QZ.normalized();
+  const double s_ref = share_that_is_zero * scale;
+  // left^T P(s) = 0
+  const ComplexVector left = eigenvector_near(M.transpose(), C.transpose(), K.transpose(), s, s_ref);
+  const ComplexVector slope = 2.0 * s * (M * z) + C * z;
+  const Complex product = left.transpose() * slope;
+  const double magnitude = std::norm(s) * M.norm() + std::abs(s) * C.norm() + K.norm();
+  const ComplexVector force = s * (s * (M * z) + C * z) + K * z;
+  double condition = magnitude * left.norm() / (std::abs(product) * std::max(std::abs(s), s_ref));
+  if (!(condition * std::numeric_limits<double>::epsilon() < 1.0))
+    condition = std::numeric_limits<double>::infinity();
+  shares = participation(left, slope, z, std::isfinite(condition));
+  return {s, condition, magnitude > 0.0 ? force.norm() / magnitude : 0.0, rounding, {}, {}};
+}
 
 /// Names the modes by their kinetic energy, where the masses are known.
 void name_by_energy(const TraceSetup& setup, const PathPoint& point, std::vector<OperatingMode>& modes) {
@@ -140,15 +128,16 @@ OperatingPoint spectrum_at(const TraceSetup& setup, const PathPoint& point, doub
   for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
     const StartingMode& start = spectrum.modes[i];
     const ComplexVector shape = point.basis.shapes(start.z, start.part, start.copy).col(0);
-    const ModeAtPoint at(unconstrained ? in_coordinates : in_coordinates.of(start.part), start.s,
-                         unconstrained ? shape : start.z, spectrum.scale);
-    OperatingMode& mode = result.modes.emplace_back(at.mode(rounding[i]));
+    Vector shares;
+    OperatingMode& mode = result.modes.emplace_back(
+        mode_at(unconstrained ? in_coordinates : in_coordinates.of(start.part), start.s,
+                unconstrained ? shape : start.z, spectrum.scale, rounding[i], shares));
     mode.shape = shape.normalized();
     const Projection* projection = setup.model->projection();
     if (projection != nullptr && projection->is_of_family()) {
       mode.what_moves = name_by_freedoms(*projection, shape);
     } else if (unconstrained) {
-      mode.what_moves = largest_names(at.shares(), shape, description.coordinate_names);
+      mode.what_moves = largest_names(shares, shape, description.coordinate_names);
     }
   }
   name_by_energy(setup, point, result.modes);
@@ -174,14 +163,6 @@ Complex without_rounding(const OperatingMode& mode) {
   if (!std::isfinite(mode.rounding)) return mode.s;
   if (std::abs(mode.s) <= mode.rounding) return 0.0;
   return std::abs(mode.s.real()) <= mode.rounding ? Complex(0.0, mode.s.imag()) : mode.s;
-}
-
-double natural_frequency(const OperatingMode& mode) {
-  return std::abs(mode.s);
-}
-
-double damping_ratio(const OperatingMode& mode) {
-  return -mode.s.real() / std::abs(mode.s);
 }
 
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "continuation/archived_parts.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -10,32 +12,24 @@ void add(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& part
   for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
 }
 
+void add(EvaluationCounts& sum, const EvaluationCounts& part) {
+  add(sum.residual, part.residual);
+  add(sum.linearization, part.linearization);
+}
+
+template <class Count>
+void add(Count& sum, const Count& part) {
+  sum += part;
+}
+
 }  // namespace
 
 RunCounts& RunCounts::operator+=(const RunCounts& other) {
-  // With a structured binding the code does not compile if a member is added and not listed here.
-  const auto& [evaluations_, modes_, iterations, factorizations, spectra_, events, certificates, bases, work,
-               in_vain, equilibrium, reduction, correction, differentiation, matching, certificate, event,
-               output] = other;
-  add(evaluations.residual, evaluations_.residual);
-  add(evaluations.linearization, evaluations_.linearization);
-  modes += modes_;
-  equilibrium_iterations += iterations;
-  equilibrium_factorizations += factorizations;
-  spectra += spectra_;
-  event_factorizations += events;
-  certificate_factorizations += certificates;
-  certificate_bases += bases;
-  certificate_work += work;
-  certificate_in_vain += in_vain;
-  equilibrium_seconds += equilibrium;
-  reduction_seconds += reduction;
-  modes_seconds += correction;
-  differentiation_seconds += differentiation;
-  matching_seconds += matching;
-  certificate_seconds += certificate;
-  events_seconds += event;
-  output_seconds += output;
+  const auto add_all = [&other](auto&... sums) {
+    const auto add_parts = [&](const auto&... parts) { (add(sums, parts), ...); };
+    visit_members(other, add_parts);
+  };
+  visit_members(*this, add_all);
   return *this;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "continuation/step/balancing.hpp"
+#include "continuation/step/ball_norm.hpp"
 #include "continuation/step/jacobian_change.hpp"
 
 namespace eigentrail {

@@ -1,10 +1,10 @@
 #include "continuation/step/modal_certificate.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/step/inverse_distance.hpp"
 #include "continuation/step/modal_bounds.hpp"
 #include "continuation/step/shared_basis.hpp"
 #include "core/matrix_series.hpp"
@@ -26,6 +26,8 @@ constexpr double most_parallel = 2e-11;
 /// Multiplications per piece, in cubes of the size of the basis: one inverse and the products at five places.
 /// Only the budget of the certificate depends on it.
 constexpr double work_of_piece = 6.0;
+/// In place of infinity, so that products with zero are numbers.
+constexpr double beyond_all = 1e100;
 
 /// The coefficients of the series of a complex matrix at the left end of a step, then at the right end.
 class StepSeries {
@@ -237,6 +239,15 @@ class ModalBallTest {
 };
 
 }  // namespace
+
+double inverse_distance(const ComplexMatrix& A, const ComplexMatrix& B) {
+  if (A.size() == 1 && B.size() == 1) return std::min(1.0 / std::abs(A(0) - B(0)), beyond_all);
+  const ComplexMatrix inverse = inverse_sylvester(A, B);
+  if (!(inverse.norm() < beyond_all)) return beyond_all;
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> squares(ComplexMatrix(inverse.adjoint() * inverse),
+                                                             Eigen::EigenvaluesOnly);
+  return std::sqrt(squares.eigenvalues().maxCoeff());
+}
 
 std::vector<bool> certify_all(const StepPencil& pencil, const PathNode& right, int part, RunCounts& counts) {
   const std::vector<Track>& tracks = pencil.left().tracks;

@@ -8,10 +8,8 @@
 #include <limits>
 #include <optional>
 
-#include "continuation/step/path_step.hpp"
 #include "eigentrail/continuation/dense_output.hpp"
 #include "eigentrail/core/chebyshev.hpp"
-#include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {
@@ -259,13 +257,16 @@ std::optional<double> root_between(const Miss& miss, double from, double to) {
   return t;
 }
 
-/// follow_roots; adds the number of computed roots to `work`.
-ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
-                       double to, bool& told_apart, std::size_t& work) {
-  told_apart = true;
+}  // namespace
+
+ComplexVector follow_roots(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
+                           double to, bool* told_apart, std::size_t* work) {
+  bool ignored = true;
+  bool& are_told_apart = told_apart != nullptr ? *told_apart : ignored;
+  are_told_apart = true;
   if (functions.size() == 1) return functions(to);
   if (!std::isfinite(to)) {
-    told_apart = false;
+    are_told_apart = false;
     return ComplexVector::Constant(roots.size(), NAN);
   }
   Differences differences(functions, roots, from);
@@ -279,7 +280,7 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     // shows it.
     const ComplexVector middle = continued(current, block_roots(functions(t + 0.5 * piece)));
     const ComplexVector ahead = continued(middle, block_roots(functions(t + piece)));
-    work += 2 * static_cast<std::size_t>(roots.size());
+    if (work != nullptr) *work += 2 * static_cast<std::size_t>(roots.size());
     const std::array<const ComplexVector*, 3> sets{&current, &middle, &ahead};
     const auto may_halve = [&] {
       return std::abs(piece) > shortest &&
@@ -295,11 +296,9 @@ ComplexVector followed(const HermiteInterpolant& functions, const ComplexVector&
     current = ahead;
     piece *= 2.0;
   }
-  told_apart = differences.were_told_apart(current);
+  are_told_apart = differences.were_told_apart(current);
   return current;
 }
-
-}  // namespace
 
 Complex chart_value(Complex s, Chart chart) {
   if (chart == Chart::finite) return s;
@@ -312,23 +311,8 @@ ComplexVector follow_roots(const DenseBlock& block, double length, const Complex
   return follow_roots(HermiteInterpolant(length, block.left, block.right), roots, from, to, told_apart);
 }
 
-ComplexVector follow_roots(const HermiteInterpolant& functions, const ComplexVector& roots, double from,
-                           double to, bool* told_apart) {
-  bool told = true;
-  std::size_t work = 0;
-  ComplexVector result = followed(functions, roots, from, to, told, work);
-  if (told_apart != nullptr) *told_apart = told;
-  return result;
-}
-
 ComplexVector step_eigenvalues(const PathStep& step, const ComplexVector& at_left,
-                               const ComplexVector& at_right, double t) {
-  std::size_t work = 0;
-  return counted_eigenvalues(step, at_left, at_right, t, work);
-}
-
-ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_left,
-                                  const ComplexVector& at_right, double t, std::size_t& work) {
+                               const ComplexVector& at_right, double t, std::size_t* work) {
   ComplexVector s = ComplexVector::Constant(at_left.size(), Complex(NAN, NAN));
   for (const DenseBlock& block : step.blocks) {
     ComplexVector roots;
@@ -339,13 +323,12 @@ ComplexVector counted_eigenvalues(const PathStep& step, const ComplexVector& at_
       // not determine the order.
       const ComplexVector left = block_roots(block.left.col(0));
       const ComplexVector right = block_roots(block.right.col(0));
-      work += 2 * static_cast<std::size_t>(block.size());
+      if (work != nullptr) *work += 2 * static_cast<std::size_t>(block.size());
       const bool from_left = distinctness(block.left.col(0), left) >= distinctness(block.right.col(0), right);
       const ComplexVector start =
           ordered_by_modes(from_left ? left : right, block, from_left ? at_left : at_right);
-      bool told_apart = true;
-      roots =
-          followed({step.length, block.left, block.right}, start, from_left ? 0.0 : 1.0, t, told_apart, work);
+      roots = follow_roots(HermiteInterpolant(step.length, block.left, block.right), start,
+                           from_left ? 0.0 : 1.0, t, nullptr, work);
     }
     for (std::size_t i = 0; i < block.modes.size(); ++i) {
       s[block.modes[i]] = upper_member(chart_value(roots[static_cast<Eigen::Index>(i)], block.chart));

@@ -24,6 +24,13 @@ struct Step {
   }
 };
 
+/// How the certificate of a track is tested on a step.
+enum class TrackTest {
+  strict,   ///< if it fails, the step is treated as `Uncertified` says
+  lenient,  ///< if it fails, the track passes by its shape: it failed on the last step, too
+  none      ///< the track passes by its shape
+};
+
 /// Whether a step is accepted, and if not, why.
 struct Verdict {
   enum class Kind {

@@ -18,6 +18,13 @@ constexpr double accepted_share = 0.5;
 /// there.
 constexpr double least_relative_gap = 0.1;
 
+/// The t in [0, 1] at which the product of the eigenvalues of a block has its smallest magnitude, to 1e-5 of
+/// the step. If one of them vanishes, this is the place: beside a zero of s, or of 1/s in the reciprocal
+/// chart, errors relative to the eigenvalue may be much larger within the step than at its ends. `functions`
+/// are the block's functions (modes/invariants.hpp) as polynomials in t, one row each, constant terms first.
+/// A minimum is found if at least one of 9 equidistant samples lies in its basin.
+double place_of_least_magnitude(const ComplexMatrix& functions);
+
 /// Accepted error of p on a step where the coordinate is the distance across a plane.
 double accepted_parameter_error(const PathFrame& frame, double tolerance);
 

@@ -4,7 +4,6 @@
 
 #include "continuation/path/path_frame.hpp"
 #include "continuation/step/step.hpp"
-#include "continuation/step/track_test.hpp"
 #include "eigentrail/continuation/trace_options.hpp"
 
 namespace eigentrail {
@@ -24,6 +23,13 @@ enum class Uncertified {
   passes,          ///< because a shorter step would fail as well
   passes_by_shape  ///< if the shapes of the modes at both ends resemble each other
 };
+
+/// Evidence that no modes were exchanged on a step (certificate.hpp): per track, whether it is certified.
+/// Without `all_count`, the tracks behind the first one that fails a strict test are not tested, because the
+/// step is rejected then. A strict test that would take too much work becomes a lenient one. Several threads
+/// share the tracks. Work is added to `counts`.
+std::vector<bool> certify(const PathProblem& problem, const Step& step, bool all_count,
+                          std::vector<TrackTest>& tests, RunCounts& counts);
 
 /// Judges a step whose points have been computed. A verdict that is accepted or `uncertified` has the error
 /// and the certified tracks; those behind the first that failed are tested only if the step may pass. `tests`

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/step/energy_norm.hpp"
+#include "continuation/step/ball_norm.hpp"
 #include "core/band_matrix.hpp"
 #include "core/diagonal_blocks.hpp"
 #include "core/matrix_series.hpp"

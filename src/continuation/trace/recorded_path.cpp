@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "eigentrail/continuation/dense_output.hpp"
 
@@ -71,48 +70,36 @@ ComplexVector RecordedPath::eigenvalues_at(const Position& position) const {
                           eigenvalues.row(left + 1).transpose(), position.t);
 }
 
-PathRecorder::PathRecorder(const RecordedPath& path)
-    : p_(path.p),
-      growing_unfollowed_(path.growing_unfollowed),
-      steps_(path.steps),
-      n_modes_(static_cast<std::size_t>(path.eigenvalues.cols())) {
-  growing_unfollowed_.resize(p_.size(), -1);
+PathRecorder::PathRecorder(const RecordedPath& path) : path_(path), n_modes_(path.eigenvalues.cols()) {
+  path_.growing_unfollowed.resize(path.n_nodes(), -1);
+  if (path.rounding.size() == 0) path_.rounding.setZero(path.eigenvalues.rows(), n_modes_);
   for (Eigen::Index node = 0; node < path.eigenvalues.rows(); ++node) {
-    const ComplexVector row = path.eigenvalues.row(node).transpose();
-    eigenvalues_.emplace_back(row.begin(), row.end());
-    std::vector<double>& rounding = rounding_.emplace_back();
-    for (int mode = 0; mode < static_cast<int>(n_modes_); ++mode)
-      rounding.push_back(path.rounding_at(static_cast<std::size_t>(node), mode));
+    eigenvalues_.emplace_back(path.eigenvalues.row(node).transpose());
+    rounding_.emplace_back(path_.rounding.row(node).transpose());
   }
 }
 
 void PathRecorder::append(const TracePoint& point) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const ModeState& state : point.modes)
-    n_modes_ = std::max(n_modes_, static_cast<std::size_t>(state.mode) + 1);
-  std::vector<Complex>& row = eigenvalues_.emplace_back(n_modes_, Complex(nan, nan));
-  std::vector<double>& rounding = rounding_.emplace_back(n_modes_, nan);
+  for (const ModeState& state : point.modes) n_modes_ = std::max<Eigen::Index>(n_modes_, state.mode + 1);
+  ComplexVector& row = eigenvalues_.emplace_back(ComplexVector::Constant(n_modes_, Complex(NAN, NAN)));
+  Vector& rounding = rounding_.emplace_back(Vector::Constant(n_modes_, NAN));
   for (const ModeState& state : point.modes) {
-    row[static_cast<std::size_t>(state.mode)] = state.s;
-    rounding[static_cast<std::size_t>(state.mode)] = state.rounding;
+    row[state.mode] = state.s;
+    rounding[state.mode] = state.rounding;
   }
-  growing_unfollowed_.push_back(point.growing_unfollowed);
-  p_.push_back(point.node.p);
-  if (point.step != nullptr) steps_.push_back(*point.step);
+  path_.growing_unfollowed.push_back(point.growing_unfollowed);
+  path_.p.push_back(point.node.p);
+  if (point.step != nullptr) path_.steps.push_back(*point.step);
 }
 
 RecordedPath PathRecorder::path() const {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  RecordedPath path{p_, {}, steps_, {}, growing_unfollowed_};
-  path.eigenvalues.setConstant(static_cast<Eigen::Index>(p_.size()), static_cast<Eigen::Index>(n_modes_),
-                               Complex(nan, nan));
-  path.rounding.setConstant(path.eigenvalues.rows(), path.eigenvalues.cols(), nan);
-  for (std::size_t node = 0; node < eigenvalues_.size(); ++node) {
-    for (std::size_t mode = 0; mode < eigenvalues_[node].size(); ++mode) {
-      const auto row = static_cast<Eigen::Index>(node), column = static_cast<Eigen::Index>(mode);
-      path.eigenvalues(row, column) = eigenvalues_[node][mode];
-      path.rounding(row, column) = rounding_[node][mode];
-    }
+  RecordedPath path = path_;
+  path.eigenvalues.setConstant(points(), n_modes_, Complex(NAN, NAN));
+  path.rounding.setConstant(points(), n_modes_, NAN);
+  for (std::size_t i = 0; i < eigenvalues_.size(); ++i) {
+    const auto node = static_cast<Eigen::Index>(i);
+    path.eigenvalues.row(node).head(eigenvalues_[i].size()) = eigenvalues_[i].transpose();
+    path.rounding.row(node).head(rounding_[i].size()) = rounding_[i].transpose();
   }
   return path;
 }

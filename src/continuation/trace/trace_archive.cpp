@@ -5,7 +5,6 @@
 // decompose by a structured binding. If a member is added to a struct, the code does not compile until it is
 // counted or listed here.
 #include "continuation/archived_parts.hpp"
-#include "continuation/trace/complex_parts.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "core/archive.hpp"
 #include "core/fingerprint.hpp"

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "continuation/events/common_collision.hpp"
 #include "continuation/events/criteria_scan.hpp"
 #include "continuation/events/meeting_events.hpp"
 #include "continuation/events/part_crossings.hpp"
@@ -14,17 +13,12 @@
 #include "continuation/events/step_checks.hpp"
 #include "continuation/events/veerings.hpp"
 #include "continuation/step/step_error.hpp"
-#include "continuation/step/step_judgement.hpp"
 #include "continuation/step/stored_step.hpp"
-#include "continuation/trace/complex_parts.hpp"
-#include "continuation/trace/narrow_landings.hpp"
 #include "continuation/trace/stop_remarks.hpp"
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
-#include "continuation/tracks/entering_modes.hpp"
-#include "continuation/tracks/mode_states.hpp"
-#include "continuation/tracks/remedy.hpp"
-#include "continuation/tracks/towards_infinity.hpp"
+#include "continuation/tracks/guard_modes.hpp"
+#include "eigentrail/continuation/scene_parts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -103,17 +97,11 @@ std::optional<double> way_to_infinity(const PathProblem& problem, const std::str
 }
 
 void count(const Verdict& verdict, Rejections& rejections) {
-  using Kind = Verdict::Kind;
-  constexpr std::array<std::pair<Kind, int Rejections::*>, 6> counters{
-      {{Kind::no_equilibrium, &Rejections::no_equilibrium},
-       {Kind::mode_lost, &Rejections::mode_lost},
-       {Kind::inaccurate, &Rejections::inaccurate},
-       {Kind::mismatch, &Rejections::mismatch},
-       {Kind::merged, &Rejections::merged},
-       {Kind::uncertified, &Rejections::uncertified}}};
-  for (const auto& [kind, counter] : counters) {
-    if (kind == verdict.kind) ++(rejections.*counter);
-  }
+  // In the order of Verdict::Kind, in which `accepted` is the first.
+  constexpr std::array counters{&Rejections::no_equilibrium, &Rejections::mode_lost,
+                                &Rejections::inaccurate,     &Rejections::mismatch,
+                                &Rejections::merged,         &Rejections::uncertified};
+  if (!verdict.accepted()) ++(rejections.*counters[static_cast<std::size_t>(verdict.kind) - 1]);
 }
 
 void add(const Regroupings& changes, Regroupings& all) {

@@ -8,8 +8,8 @@
 #include "continuation/step/step_judgement.hpp"
 #include "continuation/trace/trace_state.hpp"
 #include "continuation/tracks/joining.hpp"
-#include "continuation/tracks/remedy.hpp"
-#include "eigentrail/continuation/trace_observer.hpp"
+#include "eigentrail/continuation/trace_options.hpp"
+#include "eigentrail/continuation/trace_result.hpp"
 
 namespace eigentrail {
 

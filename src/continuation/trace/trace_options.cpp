@@ -1,14 +1,12 @@
 #include "eigentrail/continuation/trace_options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <sstream>
 
 #include "continuation/trace/mode_options.hpp"
 #include "core/texts.hpp"
-#include "eigentrail/continuation/event_options.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/measure.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
@@ -32,21 +30,24 @@ class OptionReader {
  public:
   OptionReader(const Scene& scene, TableReader& table) : scene_(scene), table_(table) {}
 
-  void operator()(const char* key, const char*, std::string& value) {
-    if (table_.has(key)) value = table_.text(key);
+  template <class Value>
+  void operator()(const char* key, const char*, Value& value) {
+    if (table_.has(key)) read(key, value);
   }
-  void operator()(const char* key, const char*, bool& value) {
-    if (table_.has(key)) value = table_.flag(key);
-  }
-  void operator()(const char* key, const char*, double& value) {
-    if (table_.has(key)) value = number(key);
-  }
-  void operator()(const char* key, const char*, int& value) {
-    if (table_.has(key)) value = whole_number(key);
+
+ private:
+  void read(const char* key, std::string& value) { value = table_.text(key); }
+  void read(const char* key, bool& value) { value = table_.flag(key); }
+  void read(const char* key, double& value) { value = number(key); }
+  void read(const char* key, int& value) { value = whole_number(key); }
+  void read(const char* key, std::optional<double>& value) { value = number(key); }
+  void read(const char* key, std::optional<int>& value) { value = whole_number_or(key, "auto"); }
+  void read(const char* key, ModeChoice& value) {
+    value =
+        table_.is_table(key) ? read_mode_choice(table_.table(key)) : ModeChoice{whole_number_or(key, "all")};
   }
   /// A whole number, or a text with several: "1, 2".
-  void operator()(const char* key, const char*, std::vector<int>& value) {
-    if (!table_.has(key)) return;
+  void read(const char* key, std::vector<int>& value) {
     if (!is_text(key)) {
       value = {whole_number(key)};
       return;
@@ -62,31 +63,17 @@ class OptionReader {
     }
   }
   /// Names separated by commas; "none" is the empty list.
-  void operator()(const char* key, const char*, std::vector<std::string>& value) {
-    if (!table_.has(key)) return;
+  void read(const char* key, std::vector<std::string>& value) {
     value.clear();
     std::istringstream text(table_.text(key));
     for (std::string item; std::getline(text, item, ',');) {
-      const std::size_t begin = item.find_first_not_of(' ');
-      const std::size_t end = item.find_last_not_of(' ');
-      if (begin == std::string::npos) table_.fail(key, "expected names separated by commas");
-      value.push_back(item.substr(begin, end - begin + 1));
+      const std::string_view name = trimmed(item, " ");
+      if (name.empty()) table_.fail(key, "expected names separated by commas");
+      value.emplace_back(name);
     }
     if (value == std::vector<std::string>{"none"}) value.clear();
   }
-  void operator()(const char* key, const char*, std::optional<double>& value) {
-    if (table_.has(key)) value = number(key);
-  }
-  void operator()(const char* key, const char*, std::optional<int>& value) {
-    if (table_.has(key)) value = whole_number_or(key, "auto");
-  }
-  void operator()(const char* key, const char*, ModeChoice& value) {
-    if (!table_.has(key)) return;
-    value =
-        table_.is_table(key) ? read_mode_choice(table_.table(key)) : ModeChoice{whole_number_or(key, "all")};
-  }
 
- private:
   bool is_text(const char* key) {
     try {
       return !table_.text(key).empty();

@@ -7,7 +7,6 @@
 #include "continuation/events/event_search.hpp"
 #include "continuation/point/common_null_vector.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
-#include "eigentrail/continuation/order_choice.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"

@@ -26,7 +26,7 @@ struct BranchPassage {
   std::size_t passed = 0;  ///< branch points so far
   int tries = 0;           ///< attempts to build a bridge from the last point
   /// The other path at the branch point that was reached last. Not saved, because it is used at once.
-  std::optional<OtherPath> other = {};
+  std::optional<PathPlane> other = {};
 };
 
 /// What is remembered of the last steps.
@@ -71,6 +71,15 @@ PathProblem trace_problem(const Model& model, const TraceOptions& options, Basis
 /// of the interpolant of order q decreases like (h / 2d)^(2q+2), where d is the distance of the nearest
 /// meeting: only nearer meetings limit the step.
 double parting_reach(const TraceOptions& options, int order);
+
+/// Whether an eigenvalue of a complex part is near the real axis at a point, or below it.
+bool is_near_real_axis(const PathProblem& problem, const PathNode& node);
+
+/// Makes all conjugate pairs of the parts real parts. Returns the new index of every part.
+std::vector<int> join_pairs(PathProblem& problem);
+
+/// Follows all conjugate pairs as real parts, from the last point on.
+void join_conjugate_parts(PathProblem& problem, TraceState& state);
 
 /// The state as bytes, with their checksum, the sizes of the problem and what the first point determined of
 /// it.

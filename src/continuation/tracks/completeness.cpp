@@ -1,17 +1,18 @@
 #include "continuation/tracks/completeness.hpp"
-#include "continuation/tracks/arrival.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
+#include "core/orthonormal.hpp"
 #include "core/reciprocal_condition.hpp"
+#include "core/singular_vectors.hpp"
 #include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/continuation/point_modes.hpp"
 #include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -31,6 +32,9 @@ constexpr double same_root = 1e-4;
 constexpr double unrelated = 1e6;
 /// A track with a larger backward error is no eigenpair: corrected pairs have errors close to rounding.
 constexpr double largest_backward_error = 1e-8;
+/// Reciprocal condition of M up to which an eigenvalue may be infinite: its |1/s| is about this share of that
+/// of a typical one, squared.
+constexpr double singular_mass = 1e-9;
 
 /// All finite eigenvalues that the tracks represent, with the conjugates of complex pairs.
 std::vector<Complex> all_eigenvalues(const PathNode& node) {
@@ -151,6 +155,17 @@ ComplexVector vector_of(const Track& track, Eigen::Index root) {
   return (track.pair.Z * solver.eigenvectors().col(nearest)).normalized();
 }
 
+/// Cosine of the largest angle between the spaces of two tracks, squared.
+double resemblance(const ComplexMatrix& a, const ComplexMatrix& b) {
+  const auto basis = [](const ComplexMatrix& Z) {
+    const Eigen::HouseholderQR<ComplexMatrix> qr(Z);
+    return columns_of_Q(qr, std::min(Z.rows(), Z.cols()));
+  };
+  const ComplexMatrix overlap = basis(a).adjoint() * basis(b);
+  const double cosine = singular_vectors(overlap).values.minCoeff();
+  return cosine * cosine;
+}
+
 }  // namespace
 
 bool have_common_eigenpair(const Track& a, const Track& b, double reference,
@@ -164,6 +179,33 @@ bool have_common_eigenpair(const Track& a, const Track& b, double reference,
     if (1.0 - outside.squaredNorm() > thresholds.merged_assurance) return true;
   }
   return false;
+}
+
+bool is_followed(const PathProblem& problem, const PathNode& node, const Track& track) {
+  const double reference = problem.reference(track.pair.chart);
+  return std::any_of(node.tracks.begin(), node.tracks.end(), [&](const Track& other) {
+    return have_common_eigenpair(track, other, reference, problem.thresholds.identity);
+  });
+}
+
+std::optional<Track> recognize(const PathProblem& problem, const PathNode& node, InvariantPair start,
+                               RunCounts& counts) {
+  start.factors.reset();
+  start.Z = node.basis.coordinates(start.Z, start.part);
+  const PencilAtPoint pencil(node.pencil.of(start.part), start.chart);
+  InvariantPair pair =
+      correct_pair(pencil, start, problem.reference(start.chart), problem.corrector, counts.modes);
+  if (pair.status != PairStatus::converged) return std::nullopt;
+  if (resemblance(pair.Z, start.Z) < problem.thresholds.identity.least_assurance) return std::nullopt;
+  Track track = differentiate_track(problem, node, std::move(pair), counts);
+  if (!track.functions.allFinite() || is_followed(problem, node, track)) return std::nullopt;
+  return track;
+}
+
+bool has_arrived(const PathProblem& problem, const PathNode& node, Complex s,
+                 const InfinityThresholds& thresholds) {
+  if (std::abs(s) <= thresholds.arrived * problem.s_max) return true;
+  return reciprocal_condition(Eigen::PartialPivLU<Matrix>(node.pencil.M[0])) > singular_mass;
 }
 
 bool has_doubtful_track(const PathNode& node, const PathProblem& problem) {

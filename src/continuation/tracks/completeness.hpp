@@ -1,5 +1,8 @@
-// Checks that no mode is lost and none is followed by two tracks.
+// Checks that no mode is lost and none is followed by two tracks, and recognition of a mode from another
+// point.
 #pragma once
+
+#include <optional>
 
 #include "continuation/tracks/mode_order.hpp"
 #include "eigentrail/modes/spectrum.hpp"
@@ -24,6 +27,33 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
 /// assurance `merged_assurance` with the space of the other.
 bool have_common_eigenpair(const Track& a, const Track& b, double reference,
                            const IdentityThresholds& thresholds);
+
+/// Whether a track of the node has an eigenpair in common with this one.
+bool is_followed(const PathProblem& problem, const PathNode& node, const Track& track);
+
+/// The track at `node` that a pair leads to. `start`: the pair elsewhere, or as predicted here, Z in physical
+/// coordinates. Empty where the corrector does not converge, the shape becomes another one, or another track
+/// has the eigenpair. The numbers of its modes are not set.
+std::optional<Track> recognize(const PathProblem& problem, const PathNode& node, InvariantPair start,
+                               RunCounts& counts);
+
+/// Which eigenvalues end. No result depends on the exact values.
+struct InfinityThresholds {
+  /// As a share of the magnitude that counts as infinite: from here on such an eigenvalue ends. A larger
+  /// value follows it farther, at the cost of short steps.
+  double leaves = 0.01;
+  /// As a share of the same: up to here one that came from infinity is added to the modes. With a larger
+  /// value it is added sooner, and its first steps are shorter.
+  double arrived = 0.005;
+  /// Largest |mu mu'' / mu'^2 + 1| of mu = 1/s that vanishes like a square root, for which it is zero; it is
+  /// one where mu passes zero smoothly. The same for |Im| / |Re| of the distance of that place.
+  double like_a_root = 0.2;
+};
+
+/// Whether an eigenvalue that nobody follows may be taken: it is not so large that it has just come from
+/// infinity (InfinityThresholds::arrived), or the mass is regular and no eigenvalue is infinite nearby.
+bool has_arrived(const PathProblem& problem, const PathNode& node, Complex s,
+                 const InfinityThresholds& thresholds = {});
 
 /// Whether the backward error of a track is so large that it is no eigenpair, or two tracks have the same
 /// eigenpair (have_common_eigenpair). Cost O(n) for every two tracks with such eigenvalues.

@@ -1,6 +1,5 @@
 #include "continuation/tracks/eigenvalue_branches.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>

@@ -1,5 +1,6 @@
 // Modes of copies of a part. Of equal parts one is traced; a mode of it stands for the equal ones of its
-// copies, which have numbers of their own in everything that a trace hands out.
+// copies, which have numbers of their own in everything that a trace hands out: events, steps, and the modes
+// of a point one by one.
 #pragma once
 
 #include <map>
@@ -7,8 +8,7 @@
 #include <vector>
 
 #include "continuation/tracks/mode_order.hpp"
-#include "eigentrail/continuation/event.hpp"
-#include "eigentrail/continuation/path_step.hpp"
+#include "eigentrail/continuation/trace_result.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
@@ -38,5 +38,11 @@ std::vector<Event> with_copies(const ModeCopies& copies, const Event& event);
 
 /// " and the equal modes 4, 5" for the copies of some modes, counted from 1; empty if there are none.
 std::string equal_modes_text(const ModeCopies& copies, const std::vector<int>& modes);
+
+/// Every mode that exists before or behind the point, those of `copies` included. `traced`: index of the
+/// traced parameter. `along`: error of the place on the path by rounding, in its coordinate, which is one of
+/// the eigenvalues, too.
+std::vector<ModeState> mode_states(const PathNode& node, int traced, const ModeCopies& copies = {},
+                                   const RoundingThresholds& thresholds = {}, double along = 0.0);
 
 }  // namespace eigentrail

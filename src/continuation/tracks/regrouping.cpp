@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "continuation/tracks/eigenvalue_branches.hpp"
-#include "continuation/tracks/grouping_errors.hpp"
 #include "continuation/tracks/members.hpp"
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/modes/block_parts.hpp"
@@ -48,13 +47,6 @@ void replace(PathNode& node, std::vector<std::size_t> old, Track track) {
   std::sort(old.rbegin(), old.rend());
   for (const std::size_t i : old) node.tracks.erase(node.tracks.begin() + static_cast<std::ptrdiff_t>(i));
   node.tracks.push_back(std::move(track));
-}
-
-/// The largest distance below which members of these tracks are inseparable.
-double inseparable(const PathNode& node, const std::vector<std::size_t>& members) {
-  double largest = 0.0;
-  for (const std::size_t i : members) largest = std::max(largest, node.tracks[i].inseparable);
-  return largest;
 }
 
 /// The smallest distance of the departures of these tracks (Track::departure); empty if none of them has one.
@@ -123,10 +115,12 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
   std::vector<const InvariantPair*> parts;
   std::vector<Complex> known, departing;
   std::vector<int> modes, met;
+  double inseparable = 0.0;
   const std::optional<double> departure = departure_distance(node, members);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Track& track = node.tracks[members[i]];
     parts.push_back(&pairs[i]);
+    inseparable = std::max(inseparable, track.inseparable);
     const bool other_chart = track.pair.chart != node.tracks[index].pair.chart;
     const bool with_conjugates = make_real && !track.pair.is_real;
     for (const int j : track.met) met.push_back(static_cast<int>(known.size()) + j);
@@ -152,7 +146,7 @@ bool join(const PathProblem& problem, PathNode& node, std::size_t index, const s
   if (!joined) joined = block(subspace_of(node, *parts.front(), values, make_real));
   if (!joined) return false;
   joined->met = std::move(met);
-  joined->inseparable = inseparable(node, members);
+  joined->inseparable = inseparable;
   if (departure) {
     joined->departure =
         Track::Departure{*departure, Eigen::Map<ComplexVector>(departing.data(), values.size())};
