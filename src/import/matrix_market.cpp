@@ -2,7 +2,6 @@
 // a table of files lists.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <regex>
 
