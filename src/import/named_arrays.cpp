@@ -11,7 +11,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "import/digits.hpp"
 #include "import/openfast_states.hpp"
 #include "import/samples.hpp"
 #include "import/text_lines.hpp"
