@@ -9,12 +9,11 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_writer.hpp"
-#include "store/data_error_datasets.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/loci_schema.hpp"
 #include "store/path_datasets.hpp"
 #include "store/provenance.hpp"
-#include "store/range_datasets.hpp"
+#include "store/whole_datasets.hpp"
 
 namespace eigentrail {
 namespace {

@@ -14,7 +14,6 @@
 #include "eigentrail/modes/normalization.hpp"
 #include "eigentrail/modes/whirl.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
-#include "store/data_error_datasets.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/loci_schema.hpp"
 #include "store/loci_tables.hpp"
@@ -22,7 +21,7 @@
 #include "store/mode_motions.hpp"
 #include "store/output_lock.hpp"
 #include "store/provenance.hpp"
-#include "store/range_datasets.hpp"
+#include "store/whole_datasets.hpp"
 
 namespace eigentrail {
 namespace {
