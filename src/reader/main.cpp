@@ -8,7 +8,6 @@
 #include <exception>
 #include <filesystem>
 
-#include "core/archive.hpp"
 #include "core/ending_allocation.hpp"
 #include "core/reader_requests.hpp"
 #include "reader/hdf5_source.hpp"
