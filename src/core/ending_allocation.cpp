@@ -1,8 +1,6 @@
 // Compiled into programs, not into the library: an allocation that fails does not return.
 #include "core/ending_allocation.hpp"
 
-#include <cerrno>
-
 // The functions of glibc under their second names.
 extern "C" void* __libc_malloc(std::size_t size);                           // NOLINT
 extern "C" void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT

@@ -77,11 +77,9 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
     return "did you mean '" + nearest + "'?";
   }
   if (candidates.empty()) return "none is known here";
-  std::string list = "known: ";
-  const std::size_t shown = std::min(candidates.size(), most_listed);
-  for (std::size_t i = 0; i < shown; ++i) list += (i == 0 ? "" : ", ") + candidates[i];
-  return shown < candidates.size() ? list + " and " + std::to_string(candidates.size() - shown) + " more"
-                                   : list;
+  const std::string list = "known: " + joined(first_items(candidates, most_listed));
+  if (candidates.size() <= most_listed) return list;
+  return list + " and " + std::to_string(candidates.size() - most_listed) + " more";
 }
 
 }  // namespace eigentrail

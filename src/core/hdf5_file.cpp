@@ -1,6 +1,5 @@
 #include "core/hdf5_file.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>

@@ -42,11 +42,6 @@ inline StoredElements no_elements(ElementType type) {
 struct StoredArray {
   Shape shape;
   StoredElements elements;  ///< row-major
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit(self.shape, self.elements);
-  }
 };
 
 /// Largest number of elements that is read from one dataset.

@@ -2,10 +2,6 @@
 
 namespace eigentrail {
 
-Matrix columns_of_Q(const Eigen::HouseholderQR<Matrix>& qr, Eigen::Index count) {
-  return qr.householderQ() * Matrix::Identity(qr.rows(), count);
-}
-
 Matrix columns_of_Q(const Eigen::ColPivHouseholderQR<Matrix>& qr, Eigen::Index count) {
   return qr.householderQ() * Matrix::Identity(qr.rows(), count);
 }
@@ -31,7 +27,7 @@ ComplexMatrix least_squares(const ComplexMatrix& A, const ComplexMatrix& B) {
 }
 
 Matrix orthonormal(const Matrix& A) {
-  return columns_of_Q(Eigen::HouseholderQR<Matrix>(A), A.cols());
+  return Eigen::HouseholderQR<Matrix>(A).householderQ() * Matrix::Identity(A.rows(), A.cols());
 }
 
 ComplexMatrix orthonormal(const ComplexMatrix& A) {

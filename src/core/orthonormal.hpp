@@ -9,7 +9,6 @@
 namespace eigentrail {
 
 /// The first `count` columns of Q in A = Q R or A P = Q R.
-Matrix columns_of_Q(const Eigen::HouseholderQR<Matrix>& qr, Eigen::Index count);
 Matrix columns_of_Q(const Eigen::ColPivHouseholderQR<Matrix>& qr, Eigen::Index count);
 ComplexMatrix columns_of_Q(const Eigen::HouseholderQR<ComplexMatrix>& qr, Eigen::Index count);
 

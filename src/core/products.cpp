@@ -44,10 +44,6 @@ Dense full_product(Gemm multiply, char form, const Dense& A, const Dense& B) {
   return C;
 }
 
-Matrix dgemm(char form, const Matrix& A, const Matrix& B) {
-  return full_product(dgemm_, form, A, B);
-}
-
 ComplexVector zgemv(char form, const ComplexMatrix& A, const ComplexVector& x) {
   const auto rows = static_cast<int>(A.rows());
   const auto columns = static_cast<int>(A.cols());
@@ -89,7 +85,7 @@ ComplexMatrix by_parts(char form, const Matrix& A, const ComplexMatrix& X) {
   if (columns <= few) return by_vectors(form, A, X);
   Matrix parts(X.rows(), 2 * columns);
   parts << X.real(), X.imag();
-  const Matrix AX = dgemm(form, A, parts);
+  const Matrix AX = full_product(dgemm_, form, A, parts);
   ComplexMatrix result(AX.rows(), columns);
   result.real() = AX.leftCols(columns);
   result.imag() = AX.rightCols(columns);
@@ -120,21 +116,21 @@ bool has_few_entries(const Matrix& A) {
 /// A B and A^T B, without the zeros of B and of A, respectively, where they are most of its entries.
 Matrix by_entries(const Matrix& A, const Matrix& B) {
   if (has_few_entries(B)) return A * SparseMatrix(B.sparseView());
-  return dgemm('N', A, B);
+  return full_product(dgemm_, 'N', A, B);
 }
 Matrix transposed_by_entries(const Matrix& A, const Matrix& B) {
   if (has_few_entries(A)) return SparseMatrix(A.sparseView()).transpose() * B;
-  return dgemm('T', A, B);
+  return full_product(dgemm_, 'T', A, B);
 }
 
 }  // namespace
 
 Matrix product(const Matrix& A, const Matrix& B) {
-  return dgemm('N', A, B);
+  return full_product(dgemm_, 'N', A, B);
 }
 
 Matrix transposed_product(const Matrix& A, const Matrix& B) {
-  return dgemm('T', A, B);
+  return full_product(dgemm_, 'T', A, B);
 }
 
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A) {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "core/archive.hpp"
 #include "core/hdf5_types.hpp"
 #include "core/reader_requests.hpp"
 

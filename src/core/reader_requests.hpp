@@ -13,7 +13,15 @@
 #include <optional>
 #include <string>
 
+#include "core/archive.hpp"
+
 namespace eigentrail {
+
+// What answers are made of.
+struct StoredArray;
+struct NamedArray;
+Members<2> archived(const StoredArray*);
+Members<6> archived(const NamedArray*);
 
 enum class ReaderRequest : std::uint8_t {
   open,        ///< a file of HDF5 by its path: true

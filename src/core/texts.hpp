@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdint>
@@ -43,22 +44,11 @@ inline std::string_view trimmed(std::string_view text, std::string_view blanks =
 
 /// Adds a code point in UTF-8.
 inline void append_utf8(std::string& text, std::uint32_t c) {
-  const auto tail = [&](int shift) { text += static_cast<char>(0x80U | ((c >> shift) & 0x3FU)); };
-  if (c < 0x80U) {
-    text += static_cast<char>(c);
-  } else if (c < 0x800U) {
-    text += static_cast<char>(0xC0U | (c >> 6U));
-    tail(0);
-  } else if (c < 0x10000U) {
-    text += static_cast<char>(0xE0U | (c >> 12U));
-    tail(6);
-    tail(0);
-  } else {
-    text += static_cast<char>(0xF0U | ((c >> 18U) & 7U));
-    tail(12);
-    tail(6);
-    tail(0);
-  }
+  const unsigned tails = c < 0x80U ? 0 : c < 0x800U ? 1 : c < 0x10000U ? 2 : 3;  // of six bits each
+  constexpr std::array heads{0U, 0xC0U, 0xE0U, 0xF0U};
+  const std::uint32_t first = c >> (6U * tails);
+  text += static_cast<char>(heads[tails] | (tails == 3 ? first & 7U : first));
+  for (unsigned i = tails; i-- > 0;) text += static_cast<char>(0x80U | ((c >> (6U * i)) & 0x3FU));
 }
 
 /// The parts of a text between separators.

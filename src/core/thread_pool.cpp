@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/blas.hpp"
+#include "core/parallel.hpp"
 
 namespace eigentrail {
 
@@ -114,6 +115,15 @@ void ThreadPool::help() {
     lock.lock();
     batch.leave(std::move(failure));
   }
+}
+
+void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& work) {
+  // For the whole process: each step of a trace distributes work several times, and traces may run at the
+  // same time.
+  static ThreadPool pool;
+  const unsigned int threads =
+      jobs > 0 ? static_cast<unsigned int>(jobs) : std::thread::hardware_concurrency();
+  pool.run(count, std::max(1U, threads), work);
 }
 
 }  // namespace eigentrail

@@ -7,7 +7,6 @@
 #include "eigentrail/core/text.hpp"
 #include "import/blade_files.hpp"
 #include "import/formats.hpp"
-#include "import/input_lines.hpp"
 #include "import/samples.hpp"
 #include "import/station_scene.hpp"
 #include "import/text_lines.hpp"

@@ -3,7 +3,7 @@
 #include "core/texts.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/blade_files.hpp"
-#include "import/input_lines.hpp"
+#include "import/text_lines.hpp"
 
 namespace eigentrail {
 namespace {

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/blade_files.hpp"
-#include "import/input_lines.hpp"
+#include "import/text_lines.hpp"
 
 namespace eigentrail {
 namespace {

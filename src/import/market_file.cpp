@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/texts.hpp"
-#include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "import/text_lines.hpp"
 

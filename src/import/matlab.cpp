@@ -1,6 +1,4 @@
 // Matrices from MATLAB's files of variables.
-#include <filesystem>
-
 #include "core/reader_process.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/plain_file.hpp"

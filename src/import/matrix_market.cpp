@@ -2,14 +2,12 @@
 // a table of files lists.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <regex>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "import/digits.hpp"
 #include "import/file_table.hpp"
 #include "import/formats.hpp"
 #include "import/market_file.hpp"

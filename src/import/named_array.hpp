@@ -29,11 +29,6 @@ struct NamedArray {
   std::vector<std::string> texts;  ///< empty if the array has numbers
   bool is_text = false;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit(self.name, self.shape, self.strides, self.numbers, self.texts, self.is_text);
-  }
-
   std::size_t size() const {
     return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
   }

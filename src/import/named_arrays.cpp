@@ -1,10 +1,8 @@
 #include "import/named_arrays.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <set>
 
@@ -12,7 +10,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "import/digits.hpp"
 #include "import/openfast_states.hpp"
 #include "import/samples.hpp"
 #include "import/text_lines.hpp"
@@ -39,11 +36,8 @@ Matrix matrix_of(const NamedArray& array, std::size_t axis = 2, std::size_t i = 
   return result;
 }
 
-/// Arrays that differ by a number at the end of their names: A00, A01, ...
-struct Family {
-  std::string stem;
-  std::vector<const NamedArray*> members;  ///< by number
-};
+/// Arrays that differ by a number at the end of their names, A00, A01, ..., by number.
+using Family = std::map<long, const NamedArray*>;
 
 class ArrayReader {
  public:
@@ -79,6 +73,11 @@ class ArrayReader {
     throw InputError(request_.files.front() + ": " + message);
   }
 
+  const NamedArray* find(const std::string& name) const {
+    const auto found = std::ranges::find(arrays_, name, &NamedArray::name);
+    return found == arrays_.end() ? nullptr : &*found;
+  }
+
   /// The same for an array that becomes part of the model; the others are listed.
   const NamedArray* take(const std::string& name) {
     const NamedArray* array = find(name);
@@ -86,18 +85,12 @@ class ArrayReader {
     return array;
   }
 
-  const NamedArray* find(const std::string& name) const {
-    const auto found = std::ranges::find(arrays_, name, &NamedArray::name);
-    return found == arrays_.end() ? nullptr : &*found;
-  }
-
   const Family* find_family(const std::string& stem) const {
-    const auto found = std::ranges::find(families_, stem, &Family::stem);
-    return found == families_.end() ? nullptr : &*found;
+    const auto found = families_.find(stem);
+    return found == families_.end() ? nullptr : &found->second;
   }
 
   void find_families() {
-    std::map<std::string, std::map<long, const NamedArray*>> numbered;
     for (const NamedArray& array : arrays_) {
       const std::size_t end = array.name.find_last_not_of("0123456789");
       const std::string digits = end == std::string::npos ? "" : array.name.substr(end + 1);
@@ -105,12 +98,7 @@ class ArrayReader {
       if (digits.empty() || digits.size() > most_digits) continue;
       std::string stem = array.name.substr(0, end + 1);
       if (stem.size() > 1 && stem.back() == '_') stem.pop_back();
-      numbered[stem][std::stol(digits)] = &array;
-    }
-    for (const auto& [stem, members] : numbered) {
-      Family family{stem, {}};
-      for (const auto& [number, array] : members) family.members.push_back(array);
-      families_.push_back(std::move(family));
+      families_[stem][std::stol(digits)] = &array;
     }
   }
 
@@ -120,7 +108,7 @@ class ArrayReader {
     const Family* family = find_family(name);
     std::vector<Matrix> result;
     if (family == nullptr) return result;
-    for (const NamedArray* member : family->members) {
+    for (const auto& [number, member] : *family) {
       taken_.insert(member->name);
       std::vector<Matrix> one = from_array(*member);
       if (one.size() != 1)
@@ -202,10 +190,8 @@ class ArrayReader {
     for (const NamedArray& array : arrays_) {
       if (taken_.contains(array.name)) continue;
       others += (others.empty() ? "" : ", ") + array.name;
-      const char upper = array.name.size() == 1
-                             ? static_cast<char>(std::toupper(static_cast<unsigned char>(array.name[0])))
-                             : '\0';
-      if (upper != '\0' && upper != array.name[0] &&
+      const std::string upper = upper_case(array.name);
+      if (upper.size() == 1 && upper != array.name &&
           std::string_view("MCKGEA").find(upper) != std::string_view::npos)
         result_.warnings.push_back("array " + array.name + " is not read; did you mean " + upper + "?");
     }
@@ -230,9 +216,9 @@ class ArrayReader {
       return array->numbers;
     }
     const Family* family = find_family(name);
-    if (family == nullptr || family->members.size() != samples_) return std::nullopt;
+    if (family == nullptr || family->size() != samples_) return std::nullopt;
     std::vector<double> values;
-    for (const NamedArray* member : family->members) {
+    for (const auto& [number, member] : *family) {
       if (member->is_text || member->size() != 1) return std::nullopt;
       values.push_back(member->numbers[0]);
     }
@@ -249,18 +235,17 @@ class ArrayReader {
   std::vector<std::string> candidates() const {
     std::vector<std::string> names;
     for (const NamedArray& array : arrays_) names.push_back(array.name);
-    for (const Family& family : families_) names.push_back(family.stem);
+    for (const auto& [stem, family] : families_) names.push_back(stem);
     std::vector<std::string> result;
     for (const std::string& name : names) {
       const auto values = numbers_per_sample(name);
       const bool is_matrix =
           result_.samples.size() == 1 && name.size() == 1 && std::string("MCKEA").find(name) < 5;
       if (!values || is_matrix || describes_states(name)) continue;
-      const auto rises = [](const std::vector<double>& list, auto less) {
-        return std::ranges::adjacent_find(list, [&](double a, double b) { return !less(a, b); }) ==
-               list.end();
+      const auto all_are = [&](auto order) {
+        return std::ranges::adjacent_find(*values, std::not_fn(order)) == values->end();
       };
-      if (rises(*values, std::less<>()) || rises(*values, std::greater<>())) result.push_back(name);
+      if (all_are(std::less<>()) || all_are(std::greater<>())) result.push_back(name);
     }
     return result;
   }
@@ -282,7 +267,7 @@ class ArrayReader {
     result_.samples.values = *values;
     taken_.insert(name);
     if (const Family* numbered = find(name) == nullptr ? find_family(name) : nullptr)
-      for (const NamedArray* member : numbered->members) taken_.insert(member->name);
+      for (const auto& [number, member] : *numbered) taken_.insert(member->name);
     result_.parameter = is_identifier(name) && name != "parameter" ? name : "p";
     result_.samples.parameter_unit = request_.option("unit");
   }
@@ -389,8 +374,8 @@ class ArrayReader {
   const std::vector<NamedArray>& arrays_;
   const ImportRequest& request_;
   const bool samples_first_;
-  std::vector<Family> families_;
-  std::set<std::string> taken_;  ///< names of the arrays that are parts of the model
+  std::map<std::string, Family> families_;  ///< by what their names begin with
+  std::set<std::string> taken_;             ///< names of the arrays that are parts of the model
   std::vector<std::vector<std::string>> names_per_sample_;
   std::size_t samples_ = 0;
   Imported result_;

@@ -12,7 +12,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/limits.hpp"
-#include "import/digits.hpp"
 #include "import/dmig.hpp"
 #include "import/file_table.hpp"
 #include "import/formats.hpp"

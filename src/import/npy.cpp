@@ -5,7 +5,6 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <optional>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"

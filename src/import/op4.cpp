@@ -1,7 +1,6 @@
 #include "import/op4.hpp"
 
 #include <cstdlib>
-#include <stdexcept>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -26,11 +25,11 @@ void Op4Header::set_rows(long signed_rows) {
   rows = signed_rows < -most_rows ? 0 : std::abs(signed_rows);
 }
 
-Op4Matrix op4_matrix(const Op4Header& header, const Op4Choice& wanted) {
+Op4Matrix op4_matrix(const Op4Header& header, const Op4Choice& wanted,
+                     const std::function<void(const std::string& message)>& fail) {
   if (header.columns < 1 || header.columns > most_rows || header.rows < 1 || header.rows > most_rows ||
       header.type < 1 || header.type > 4 || header.form < 1 || header.form > 15)
-    throw std::invalid_argument(
-        "no header of a matrix: expected columns, rows, form and type (1 to 4) as whole numbers");
+    fail("no header of a matrix: expected columns, rows, form and type (1 to 4) as whole numbers");
   Op4Matrix matrix{header.name, {}, header.single(), 17, {}};
   if (header.complex()) {
     matrix.fault = "is complex (type " + std::to_string(header.type) + "); expected real numbers";

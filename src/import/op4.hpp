@@ -39,9 +39,15 @@ struct Op4Header {
   bool single() const { return type == 1 || type == 3; }
 };
 
-/// The matrix without its values: zero if it can be used and is wanted. Throws std::invalid_argument if the
+/// More matrices in a file are a sign of another kind of file.
+inline constexpr std::size_t most_op4_matrices = 1000;
+/// Numbers that pack length and row of a string into one: length * 65536 + row.
+inline constexpr long op4_packing = 65536;
+
+/// The matrix without its values: zero if it can be used and is wanted. Calls `fail`, which throws, if the
 /// header makes no sense.
-Op4Matrix op4_matrix(const Op4Header& header, const Op4Choice& wanted);
+Op4Matrix op4_matrix(const Op4Header& header, const Op4Choice& wanted,
+                     const std::function<void(const std::string& message)>& fail);
 
 /// The variants of parse_op4.
 std::vector<Op4Matrix> parse_op4_text(std::string_view text, const std::string& path,

@@ -6,8 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <stdexcept>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -18,9 +16,6 @@ namespace {
 
 constexpr std::size_t marker_bytes = 4;
 constexpr std::size_t header_words = 6;  // four numbers and the name
-constexpr std::size_t most_binary_matrices = 1000;
-/// Numbers that pack length and row of a string into one: length * 65536 + row.
-constexpr std::int64_t string_packing = 65536;
 
 class Op4BinaryReader {
  public:
@@ -31,8 +26,8 @@ class Op4BinaryReader {
 
   std::vector<Op4Matrix> read() {
     while (!rest_.empty()) {
-      if (matrices_.size() == most_binary_matrices)
-        fail("more than " + std::to_string(most_binary_matrices) + " matrices");
+      if (matrices_.size() == most_op4_matrices)
+        fail("more than " + std::to_string(most_op4_matrices) + " matrices");
       read_header(record());
       while (read_column(record())) {
       }
@@ -107,11 +102,7 @@ class Op4BinaryReader {
       if (c != ' ' && c != '\0')
         header_.name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     }
-    try {
-      matrices_.push_back(op4_matrix(header_, wanted_));
-    } catch (const std::invalid_argument& error) {
-      fail(error.what());
-    }
+    matrices_.push_back(op4_matrix(header_, wanted_, [this](const std::string& why) { fail(why); }));
   }
 
   /// Column, first row and number of words, then the numbers. Returns whether there are more: the last column
@@ -140,8 +131,8 @@ class Op4BinaryReader {
   void read_strings(std::string_view data) {
     while (!data.empty()) {
       const std::int64_t first = whole(data, 0);
-      const std::int64_t length = header_.bigmat ? first : first / string_packing;
-      const std::int64_t row = header_.bigmat ? whole(data, 1) : first % string_packing;
+      const std::int64_t length = header_.bigmat ? first : first / op4_packing;
+      const std::int64_t row = header_.bigmat ? whole(data, 1) : first % op4_packing;
       const std::size_t in_front = header_.bigmat ? 2 : 1;
       const std::size_t room = data.size() / word_ - in_front;
       if (length < 2 || row < 1 || static_cast<std::uint64_t>(length - 1) > room)

@@ -1,7 +1,6 @@
 // OUTPUT4 as text: numbers in columns of fixed width, without blanks between them.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
@@ -10,10 +9,6 @@
 
 namespace eigentrail {
 namespace {
-
-constexpr std::size_t most_matrices = 1000;
-/// Numbers that pack length and row of a string into one: length * 65536 + row.
-constexpr long packing = 65536;
 
 /// How a matrix prints its numbers, as Fortran says it: "1P,5E16.9" has 5 on a line, 16 columns each.
 struct NumberFormat {
@@ -29,8 +24,8 @@ class Op4TextReader {
   std::vector<Op4Matrix> read() {
     while (const auto line = lines_.next()) {
       if (trimmed(*line).empty()) continue;
-      if (matrices_.size() == most_matrices)
-        lines_.fail("more than " + std::to_string(most_matrices) + " matrices");
+      if (matrices_.size() == most_op4_matrices)
+        lines_.fail("more than " + std::to_string(most_op4_matrices) + " matrices");
       read_header(*line);
       while (read_column()) {
       }
@@ -70,11 +65,7 @@ class Op4TextReader {
     if (line.size() > name) header_.name = upper_case(std::string(trimmed(line.substr(name, 8))));
     format_ = {};
     if (line.size() > name + 8) read_format(trimmed(line.substr(name + 8, line.find('|') - name - 8)));
-    try {
-      matrices_.push_back(op4_matrix(header_, wanted_));
-    } catch (const std::invalid_argument& error) {
-      lines_.fail(error.what());
-    }
+    matrices_.push_back(op4_matrix(header_, wanted_, [this](const std::string& why) { lines_.fail(why); }));
     matrices_.back().digits = format_.digits;
     last_column_ = 0;
   }
@@ -130,8 +121,8 @@ class Op4TextReader {
     while (words > 0) {
       const std::string_view line = next_line();
       const long first = whole(line, 0, header_.bigmat ? 8 : 16);
-      const long length = header_.bigmat ? first : first / packing;
-      const long row = header_.bigmat ? whole(line, 8, 8) : first % packing;
+      const long length = header_.bigmat ? first : first / op4_packing;
+      const long row = header_.bigmat ? whole(line, 8, 8) : first % op4_packing;
       const long per_number = header_.single() ? 1 : 2;
       if (length < 2 || row < 1 || (length - 1) % per_number != 0 || length > words)
         lines_.fail("expected the length and the first row of a string of numbers");

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"

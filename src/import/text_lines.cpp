@@ -15,14 +15,6 @@
 #include "eigentrail/scene/limits.hpp"
 
 namespace eigentrail {
-namespace {
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-}  // namespace
-
 std::string read_text_file(const std::string& path) {
   require_plain_file(path);
   if (std::filesystem::file_size(path) > limits::text_file_bytes)
@@ -55,14 +47,18 @@ std::string shown(std::string_view word) {
   return "'" + printable(std::string(word.substr(0, most))) + "'";
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> words_of(std::string_view line, std::string_view separators,
+                                       std::string_view quotes) {
   std::vector<std::string_view> words;
+  std::size_t end = 0;
   while (true) {
-    const auto begin = std::find_if_not(line.begin(), line.end(), is_blank);
-    const auto end = std::find_if(begin, line.end(), is_blank);
-    if (begin == line.end()) return words;
-    words.emplace_back(begin, end);
-    line.remove_prefix(static_cast<std::size_t>(end - line.begin()));
+    const std::size_t begin = line.find_first_not_of(separators, end);
+    if (begin == std::string_view::npos) return words;
+    const bool quoted = quotes.find(line[begin]) != std::string_view::npos;
+    end = quoted ? line.find(line[begin], begin + 1) : line.find_first_of(separators, begin);
+    if (quoted && end != std::string_view::npos) ++end;
+    words.push_back(line.substr(begin, end - begin));
+    if (end == std::string_view::npos) return words;
   }
 }
 
@@ -100,17 +96,67 @@ int printed_digits(std::string_view word) {
   int digits = 0;
   bool point = false, started = false;
   for (const char c : word) {
-    if (c == '.') point = true;
     if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
       started = started || c != '0';
       digits += started ? 1 : 0;
-    } else if (c != '.' && c != '+' && c != '-') {
-      break;
-    } else if (c != '.' && digits > 0) {
+    } else if (c == '.') {
+      point = true;
+    } else if (digits > 0 || (c != '+' && c != '-')) {
       break;
     }
   }
   return point ? digits : 0;
+}
+
+std::vector<std::string_view> InputLines::next() {
+  while (const auto line = TextLines::next()) {
+    const std::string_view content = trimmed(*line);
+    const bool is_comment = content.find_first_of("!#%") == 0;
+    if (!content.empty() && !is_comment) return words_of(content, " \t\r\f\v,", "\"'");
+  }
+  return {};
+}
+
+double InputLines::number(std::string_view word, const std::string& what) const {
+  const auto value = number_of(word);
+  if (!value || !std::isfinite(*value)) fail(what + ": expected a number, found " + shown(word));
+  return *value;
+}
+
+std::size_t InputLines::count(std::string_view word, const std::string& what, std::size_t most) const {
+  const auto value = whole_number_of(word);
+  if (!value || *value < 1 || *value > static_cast<long>(most))
+    fail(what + ": expected a whole number from 1 to " + std::to_string(most) + ", found " + shown(word));
+  return static_cast<std::size_t>(*value);
+}
+
+std::vector<double> InputLines::row(const std::vector<std::string_view>& words, std::size_t count,
+                                    const std::string& what) const {
+  if (words.empty()) fail(what + ": the file ends before it; it was cut short");
+  std::vector<double> values;
+  for (const std::string_view word : words) {
+    if (values.size() == count) {
+      if (number_of(word)) fail(what + " has more than " + std::to_string(count) + " numbers");
+      break;  // a comment
+    }
+    if (!number_of(word) && !values.empty())
+      fail(what + " has " + std::to_string(values.size()) + " numbers before " + shown(word) + "; expected " +
+           std::to_string(count));
+    values.push_back(number(word, what));
+  }
+  if (values.size() < count)
+    fail(what + " has " + std::to_string(values.size()) + " numbers; expected " + std::to_string(count));
+  return values;
+}
+
+bool has_name(const std::vector<std::string_view>& words, std::string_view name) {
+  return words.size() > 1 && equal_words(words[1], name);
+}
+
+std::string without_quotes(std::string_view word) {
+  if (word.size() > 1 && (word.front() == '"' || word.front() == '\'') && word.back() == word.front())
+    word = word.substr(1, word.size() - 2);
+  return std::string(word);
 }
 
 }  // namespace eigentrail

@@ -33,8 +33,9 @@ class TextLines {
 std::string_view columns_of_line(std::string_view line, std::size_t begin, std::size_t width);
 /// The begin of a word in quotes, for messages.
 std::string shown(std::string_view word);
-/// Words between blanks.
-std::vector<std::string_view> words_of(std::string_view line);
+/// Words between separators; a text in one of the quotes is one word, with its quotes.
+std::vector<std::string_view> words_of(std::string_view line, std::string_view separators = " \t\r\f\v",
+                                       std::string_view quotes = "");
 
 /// "1 file", "3 files".
 std::string count_of(std::size_t count, const std::string& what);
@@ -48,5 +49,31 @@ std::optional<long> whole_number_of(std::string_view word);
 bool is_identifier(std::string_view name);
 /// Significant digits of a number as printed; leading zeros do not count. 0 for zero and whole numbers.
 int printed_digits(std::string_view word);
+
+/// Goes through the lines of an input file of OpenFAST, a value, its name and a description on each, without
+/// comments and empty lines.
+class InputLines : private TextLines {
+ public:
+  using TextLines::fail;
+  using TextLines::TextLines;
+
+  /// The words of the next line, or nothing at the end. Commas separate words, too, and texts in quotes are
+  /// one word.
+  std::vector<std::string_view> next();
+
+  /// A word of the current line as a finite number. `what` says in messages what it is.
+  double number(std::string_view word, const std::string& what) const;
+  /// A word as a whole number from 1 to `most`.
+  std::size_t count(std::string_view word, const std::string& what, std::size_t most) const;
+  /// The first `count` words as finite numbers. What follows must not be a number.
+  std::vector<double> row(const std::vector<std::string_view>& words, std::size_t count,
+                          const std::string& what) const;
+};
+
+/// Whether the second word of a line is this name, in upper or lower case.
+bool has_name(const std::vector<std::string_view>& words, std::string_view name);
+
+/// A word without the quotes around it.
+std::string without_quotes(std::string_view word);
 
 }  // namespace eigentrail

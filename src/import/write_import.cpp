@@ -17,10 +17,6 @@
 namespace eigentrail {
 namespace {
 
-const char* frame_name(StateFrame frame) {
-  return frame == StateFrame::fixed ? "fixed" : "rotating";
-}
-
 template <class Element>
 void write_array(Hdf5Writer& file, const std::string& name, const Shape& shape,
                  const std::vector<Element>& elements) {
@@ -59,7 +55,8 @@ std::string samples_file(const SampledData& data) {
   write_list(file, "derivative_order",
              std::vector<std::int64_t>(data.derivative_order.begin(), data.derivative_order.end()));
   std::vector<std::string> frames;
-  for (const StateFrame frame : data.state_frames) frames.emplace_back(frame_name(frame));
+  for (const StateFrame frame : data.state_frames)
+    frames.emplace_back(frame == StateFrame::fixed ? "fixed" : "rotating");
   write_list(file, "frame", frames);
   if (data.digits) file.set_attribute("digits", *data.digits);
   if (!data.source.empty()) file.set_attribute("source", data.source);

@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "core/columns.hpp"
 #include "core/lapack.hpp"
 
 extern "C" void ztbsv_(const char* triangle, const char* form, const char* diagonal, const int* n,
@@ -17,6 +16,16 @@ namespace {
 /// Bound of the other components of the null vectors whose chosen ones are one. Errors grow by it; they are
 /// about one at best. A larger value allows larger errors, a smaller one factors more matrices twice.
 constexpr double largest_growth = 100.0;
+
+/// Overwrites every column of B with what `map` makes of it in place.
+template <class Map>
+void for_each_column(ComplexMatrix& B, Map map) {
+  for (Eigen::Index j = 0; j < B.cols(); ++j) {
+    ComplexVector column = B.col(j);
+    map(column);
+    B.col(j) = column;
+  }
+}
 
 /// The columns of P, of n rows, that are chosen.
 ComplexMatrix columns_of_band(const ComplexMatrix& band, const std::vector<Eigen::Index>& chosen) {

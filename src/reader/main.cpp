@@ -8,7 +8,6 @@
 #include <exception>
 #include <filesystem>
 
-#include "core/archive.hpp"
 #include "core/ending_allocation.hpp"
 #include "core/reader_requests.hpp"
 #include "reader/hdf5_source.hpp"
@@ -42,7 +41,7 @@ class Server {
   void run() {
     while (const std::optional<std::string> request = receive_message(reader_socket)) {
       alarm(seconds_);  // ends the process
-      const std::string found = answer_or_reason(*request);
+      const std::string found = answer(*request);
       alarm(0);
       if (!send_message(reader_socket, found)) return;
     }
@@ -56,15 +55,8 @@ class Server {
     alarm(seconds_);
   }
 
-  std::string answer_or_reason(const std::string& message) {
-    try {
-      return answer(message);
-    } catch (const std::exception& error) {
-      return packed(false, std::string(error.what()));
-    }
-  }
-
-  std::string answer(const std::string& message) {
+  /// What was asked for, or why there is none.
+  std::string answer(const std::string& message) try {
     ReaderRequest request{};
     std::string name;
     std::uint64_t first = 0, rows = 0;
@@ -89,6 +81,8 @@ class Server {
       default:
         return packed(true, file_->read(name, first, rows));
     }
+  } catch (const std::exception& error) {
+    return packed(false, std::string(error.what()));
   }
 
   unsigned seconds_ = 5;

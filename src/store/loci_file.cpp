@@ -9,12 +9,11 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/store/loci_writer.hpp"
-#include "store/data_error_datasets.hpp"
 #include "store/labelled_datasets.hpp"
 #include "store/loci_schema.hpp"
 #include "store/path_datasets.hpp"
 #include "store/provenance.hpp"
-#include "store/range_datasets.hpp"
+#include "store/whole_datasets.hpp"
 
 namespace eigentrail {
 namespace {
@@ -274,8 +273,7 @@ void read_mode_shapes(const LociFile& loci,
   const Hdf5File file = Hdf5File::open(loci.path);
   for (std::size_t node = 0; node < loci.n_nodes(); ++node) {
     const std::vector<Complex> shapes = file.read_complex_row("mode_shape", node);
-    if (shapes.size() != loci.modes.size() * loci.coordinates.size())
-      throw InputError(loci.path + ": mode_shape does not fit the other datasets");
+    require(shapes.size() == loci.modes.size() * loci.coordinates.size(), loci, "mode_shape");
     use(node, shapes);
   }
 }

@@ -179,18 +179,15 @@ std::vector<std::string> ModeMotions::own_names(std::size_t n_modes) const {
 }
 
 void ModeMotions::write(Hdf5Writer& file, std::size_t n_modes) {
-  const std::size_t motions = shares_.motions().size();
+  const auto motions = static_cast<Eigen::Index>(shares_.motions().size());
   if (motions == 0 && by_participation_.empty() && rotor_modes_.empty() && given_.empty()) return;
+  const Vector unknown = Vector::Constant(motions, std::numeric_limits<double>::quiet_NaN());
   std::vector<double> values;
-  for (const bool first : {true, false}) {
+  for (const auto end : {&Ends::first, &Ends::last}) {
     for (std::size_t mode = 0; mode < n_modes; ++mode) {
       const auto found = modes_.find(mode);
-      for (std::size_t i = 0; i < motions; ++i) {
-        const auto at = static_cast<Eigen::Index>(i);
-        values.push_back(found == modes_.end() ? std::numeric_limits<double>::quiet_NaN()
-                         : first               ? found->second.first[at]
-                                               : found->second.last[at]);
-      }
+      const Vector& shares = found == modes_.end() ? unknown : found->second.*end;
+      values.insert(values.end(), shares.begin(), shares.end());
     }
   }
   if (motions > 0) file.write_rows("kinetic_energy_share", 0, values);

@@ -15,7 +15,7 @@ TEST(EvaluateSeries, IsThePolynomialInEveryRow) {
 }
 
 TEST(EvaluateSeries, OfASingleColumnIsThatColumn) {
-  const ComplexVectorSeries series = ComplexMatrix::Constant(3, 1, Complex(1.0, -2.0));
+  const ComplexMatrix series = ComplexMatrix::Constant(3, 1, Complex(1.0, -2.0));
   const ComplexVector value = evaluate_series(series, 1e3);
   EXPECT_EQ(value, ComplexVector::Constant(3, Complex(1.0, -2.0)));
 }

@@ -1,5 +1,5 @@
 // Significant digits of samples.
-#include "import/digits.hpp"
+#include "import/samples.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// LU factors of a square complex matrix with partial pivoting, by LAPACK.
+// LU factors of square matrices, complex or real, with partial pivoting, by LAPACK, for complex right sides.
 #pragma once
 
 #include <vector>
@@ -29,6 +29,28 @@ class ComplexLu {
   void substitute(char triangle, char form, Eigen::Ref<ComplexMatrix> B) const;
 
   ComplexMatrix factors_;
+  std::vector<int> pivots_;
+};
+
+/// The same of a real matrix.
+class RealLu {
+ public:
+  /// Factors A (size x size), which is overwritten. Cost size^3 / 3 real multiplications.
+  explicit RealLu(Matrix A);
+
+  Eigen::Index size() const { return factors_.rows(); }
+
+  /// Overwrites the columns of B with A^-1 B; the real and imaginary parts are right sides of one call. Cost
+  /// 2 size^2 for each.
+  void solve_in_place(Eigen::Ref<ComplexMatrix> B) const { solve('N', B); }
+
+  /// Overwrites B with A^-T B.
+  void solve_adjoint_in_place(Eigen::Ref<ComplexMatrix> B) const { solve('T', B); }
+
+ private:
+  void solve(char form, Eigen::Ref<ComplexMatrix> B) const;
+
+  Matrix factors_;
   std::vector<int> pivots_;
 };
 

@@ -75,7 +75,6 @@ class Extended {
   friend Extended operator+(const Extended& a) { return a; }
 
   friend bool operator==(const Extended& a, const Extended& b) { return a.value_ == b.value_; }
-  friend bool operator!=(const Extended& a, const Extended& b) { return a.value_ != b.value_; }
   friend bool operator<(const Extended& a, const Extended& b) { return a.value_ < b.value_; }
   friend bool operator>(const Extended& a, const Extended& b) { return a.value_ > b.value_; }
   friend bool operator<=(const Extended& a, const Extended& b) { return a.value_ <= b.value_; }

@@ -57,7 +57,9 @@ class BasicSystemMatrix {
   }
   /// Largest magnitude of an entry; 0 if the matrix is empty.
   Real largest_entry() const {
-    return visit([](const auto& values) { return largest_magnitude(values); });
+    if (const auto* values = std::get_if<Dense>(&values_))
+      return values->size() == 0 ? Real(0.0) : Real(values->cwiseAbs().maxCoeff());
+    return sparse().nonZeros() == 0 ? Real(0.0) : Real(sparse().coeffs().cwiseAbs().maxCoeff());
   }
   /// Largest column sum of magnitudes; 0 if the matrix is empty.
   Real one_norm() const {
@@ -92,10 +94,10 @@ class BasicSystemMatrix {
 
   /// Adds `factor` B; both matrices must be dense or both sparse, otherwise throws std::bad_variant_access.
   void add_scaled(Real factor, const BasicSystemMatrix& B) {
-    modify([&](auto& values) {
-      using Kind = std::decay_t<decltype(values)>;
-      values += factor * std::get<Kind>(B.values_);
-    });
+    const auto add = [&](auto& values) {
+      values += factor * std::get<std::decay_t<decltype(values)>>(B.values_);
+    };
+    std::visit(add, values_);
   }
   /// Zero matrix of the same shape and storage.
   BasicSystemMatrix zero() const {
@@ -110,18 +112,6 @@ class BasicSystemMatrix {
   }
 
  private:
-  template <class Visit>
-  decltype(auto) modify(Visit&& visitor) {
-    return std::visit(std::forward<Visit>(visitor), values_);
-  }
-
-  static Real largest_magnitude(const Dense& values) {
-    return values.size() == 0 ? Real(0.0) : Real(values.cwiseAbs().maxCoeff());
-  }
-  static Real largest_magnitude(const Sparse& values) {
-    return values.nonZeros() == 0 ? Real(0.0) : Real(values.coeffs().cwiseAbs().maxCoeff());
-  }
-
   std::variant<Dense, Sparse> values_;
 };
 

@@ -23,7 +23,6 @@ using MatrixSeries = std::vector<Matrix>;
 
 /// Power series with vector coefficients: column k multiplies h^k; missing columns are zero.
 using VectorSeries = Matrix;
-using ComplexVectorSeries = ComplexMatrix;
 
 /// The path near a point: all parameters, the coordinates and the multipliers as power series in h, the
 /// distance along the path.

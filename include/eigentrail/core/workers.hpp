@@ -64,7 +64,6 @@ struct Part {
   int number = 1;
   int count = 1;
 
-  bool is_whole() const { return count == 1; }
   /// Numbers of its pieces, out of 0 ... n - 1.
   std::vector<std::size_t> pieces(std::size_t n) const;
 };

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "eigentrail/core/complex_lu.hpp"
-#include "eigentrail/core/real_lu.hpp"
 #include "eigentrail/modes/pencil_at_point.hpp"
 #include "eigentrail/reduction/complex_blocks.hpp"
 

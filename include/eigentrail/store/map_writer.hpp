@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "eigentrail/stability/stability_map.hpp"
 
