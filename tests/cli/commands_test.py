@@ -56,11 +56,6 @@ class Program(CommandTest):
         for fragment in [*COMMANDS, "Exit codes"]:
             self.assertIn(fragment, text)
 
-    def test_help_of_every_command_has_an_example(self):
-        for command in COMMANDS:
-            with self.subTest(command):
-                self.assertIn(f"  eigentrail {command} ", self.run_well(command, "--help").split("Example")[1])
-
 
 class UnknownNames(CommandTest):
     """Names that mean nothing are errors with a suggestion, and point to the help of the command."""
