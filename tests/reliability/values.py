@@ -17,6 +17,7 @@ VALUES = [
     blade("tolerance too large", "to = 5.0", "to = 5.0\n§tolerance = 0.5",
           "[trace] tolerance: must lie between 1e-13 and 0.1; found 0.5"),
     blade("tolerance that is no number", "to = 5.0", "to = 5.0\n§tolerance = nan", "[trace] tolerance: expected"),
+    blade("no modes", "to = 5.0", "to = 5.0\n§modes = 0", "[trace] modes: must be at least 1", '"all"'),
     blade("order too large", "to = 5.0", "to = 5.0\n§order = 5", "[trace] order: must lie between 1 and 4"),
     blade("infinite end", "to = 5.0", "§to = inf", "[trace] to: expected a finite number"),
     blade("end that divides by zero", "to = 5.0", '§to = "1 / (drag - 2)"', "[trace] to:", "finite"),
