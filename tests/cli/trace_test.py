@@ -40,6 +40,7 @@ class Trace(CommandTest):
                 summary = self.run_well("trace", scene, "--verbose", "-o", f"{scene.stem}.h5")
                 self.assertIn(f"wrote {scene.stem}.h5; next: ", summary)
                 evaluations = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
+                self.assertNotRegex(evaluations, r" 0\b")
                 counted = [entry.split()[0] for entry in evaluations.split(", ")]
                 explained = self.run_well("explain", scene)
                 effects, _, absent = explained[:explained.index("structure of")].partition("absent, never evaluated: ")
