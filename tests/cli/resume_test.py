@@ -18,15 +18,10 @@ LONG = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_ste
 
 # A rotor, whose modes have a whirl and names from where the shaft first turns.
 ROTOR = """
-[parameters]
-speed = { value = 3000, unit = "rpm" }
-[trace]
-parameter = "speed"
-from = 0
-to = 9000
-order = 1
-tolerance = 1e-9
-max_step = 4
+parameters = { speed = { value = 3000, unit = "rpm" } }
+trace = { parameter = "speed", from = 0, to = 9000, order = 1, tolerance = 1e-9, max_step = 4 }
+disc = [{ node = 2, mass = 20, Id = 0.2, Ip = 0.3 }]
+bearing = [{ node = [1, 3], kxx = 1e7, kyy = 2e7, cxx = 100 }]
 [[shaft]]
 stations = { length = 1, outer = 0.05 }
 elements = 2
@@ -34,16 +29,6 @@ E = 2.1e11
 nu = 0.3
 density = 7850
 speed = "speed"
-[[disc]]
-node = 2
-mass = 20
-Id = 0.2
-Ip = 0.3
-[[bearing]]
-node = [1, 3]
-kxx = 1e7
-kyy = 2e7
-cxx = 100
 """
 
 # Equal pendulums on rods that rise as their frame turns faster: one is traced, in coordinates that turn with it.

@@ -8,12 +8,9 @@ import numpy as np
 from program import BIRTH, BLADE, CROSSING, FAMILY, PUSHED_PENDULUM, ProgramTest
 
 FREE_ALONG_ITS_AXIS = """
-[parameters]
-speed = 0.0
-[trace]
-parameter = "speed"
-from = 0
-to = 1000
+parameters = { speed = 0.0 }
+trace = { parameter = "speed", from = 0, to = 1000 }
+bearing = [{ node = [1, 3], kxx = 5e5 }]
 [[shaft]]
 stations = { length = 0.4, outer = 0.04 }
 elements = 2
@@ -22,9 +19,6 @@ nu = 0.3
 density = 7850
 speed = "speed"
 axial = true
-[[bearing]]
-node = [1, 3]
-kxx = 5e5
 """
 
 
