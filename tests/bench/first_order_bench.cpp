@@ -1,19 +1,17 @@
 // Time per point of first-order families against second-order ones with the same eigenvalues.
 #include <Eigen/QR>
 #include <cmath>
-#include <random>
 
 #include "bench/benchmarks.hpp"
 #include "bench/text.hpp"
 #include "bench/timed_trace.hpp"
 #include "bench/timing.hpp"
 #include "hard_cases/family.hpp"
+#include "support/families.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
 namespace {
-
-using Normal = std::normal_distribution<double>;
 
 constexpr double first_order_tolerance = 1e-8;
 constexpr double largest_ratio = 1.3;
@@ -37,20 +35,16 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-Matrix random_matrix(Eigen::Index n, std::mt19937_64& engine) {
-  Normal normal;
-  return Matrix::NullaryExpr(n, n, [&] { return normal(engine); });
-}
-
 Matrix random_rotation(Eigen::Index n, std::mt19937_64& engine) {
-  return random_matrix(n, engine).householderQr().householderQ();
+  return random_matrix(n, n, engine).householderQr().householderQ();
 }
 
 /// Frequencies 3, 4.3, 5.6 ... rad/s that a random stiffness moves across each other.
 Family second_order(const Kind& kind, int n, std::mt19937_64& engine) {
   const Matrix Q = random_rotation(n, engine);
   const Vector squares = Vector::LinSpaced(n, 3.0, 3.0 + 1.3 * (n - 1)).cwiseAbs2();
-  const Matrix S = random_matrix(n, engine), G = random_matrix(n, engine), D = random_matrix(n, engine);
+  const Matrix S = random_matrix(n, n, engine), G = random_matrix(n, n, engine),
+               D = random_matrix(n, n, engine);
   Matrix C = 0.05 * Matrix::Identity(n, n);
   if (kind.heavy) C = 0.5 * Matrix::Identity(n, n) + 1.5 * D * D.transpose() / n;
   if (kind.circulatory) C = 0.5 * Matrix::Identity(n, n) + 0.3 * D;
@@ -74,7 +68,7 @@ StateSpace first_order(const Kind& kind, const Family& family, std::mt19937_64& 
     T = random_rotation(N, engine);
     T.bottomRows(n) *= frequency;
   }
-  if (kind.implicit) E += 0.2 * random_matrix(N, engine);
+  if (kind.implicit) E += 0.2 * random_matrix(N, N, engine);
   StateSpace states{{E}, {}};
   for (std::size_t k = 0; k < family.K.size(); ++k) {
     Matrix A = Matrix::Zero(N, N);
@@ -86,10 +80,6 @@ StateSpace first_order(const Kind& kind, const Family& family, std::mt19937_64& 
   return states;
 }
 
-Setting setting_of(const Kind& kind, const std::string& matrices) {
-  return make_setting(family_scene(0.0, kind.to, matrices));
-}
-
 struct Pair {
   Setting first, second;
 };
@@ -98,10 +88,9 @@ Pair pair_of(const Kind& kind, int n, unsigned seed) {
   std::mt19937_64 engine(seed);
   const Family family = second_order(kind, n, engine);
   const StateSpace states = first_order(kind, family, engine);
-  const std::string E = kind.implicit ? "E = " + matrices_text(states.E) + "\n" : "";
-  return {setting_of(kind, E + "A = " + matrices_text(states.A) + "\n"),
-          setting_of(kind, "M = " + matrices_text(family.M) + "\nC = " + matrices_text(family.C) +
-                               "\nK = " + matrices_text(family.K) + "\n")};
+  const std::string E = kind.implicit ? "E = " + text(states.E) + "\n" : "";
+  return {make_setting(family_scene(E + "A = " + text(states.A) + "\n", 0.0, kind.to)),
+          make_setting(family_scene(family, 0.0, kind.to))};
 }
 
 double seconds_per_point(const Setting& setting, bool certify, int& points) {

@@ -1,14 +1,11 @@
 """`eigentrail sweep`: its loci files and index, runs that fail, parts, and bad input."""
 
 import csv
-import subprocess
-import time
 import unittest
 
 from command_test_case import CommandTest
 from loci_comparison import differences
-from program import (BLADE, EXIT_DONE, EXIT_NUMBERS_FAILED, FAMILY, PROGRAM, PUSHED_PENDULUM, SCENES, TIME_LIMIT, ProgramTest,
-                     each_case, edited)
+from program import BLADE, EXIT_DONE, EXIT_NUMBERS_FAILED, FAMILY, PUSHED_PENDULUM, SCENES, ProgramTest, each_case, edited
 
 SWEEP = ("sweep", "scene.toml", "--vary", "drag=1,2,5", "--vary", "length=4:0.5:5")
 
@@ -157,23 +154,6 @@ class Sweep(CommandTest):
                 self.assertEqual(differences(self.folder / "out" / name, self.folder / f"shared_{count}" / name), [])
             self.assertEqual((self.folder / f"shared_{count}/index.csv").read_bytes(),
                              (self.folder / "out/index.csv").read_bytes())
-
-    def test_killed_part_is_repeated_alone(self):
-        self.write("scene.toml", edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.05"))
-        self.run_well(*SWEEP, "-o", "out", "--quiet")
-        self.run_well(*SWEEP, "-o", "shared", "--part", "1/2", "--quiet")
-        run = subprocess.Popen([PROGRAM, *SWEEP, "-o", "shared", "--part", "2/2", "--quiet"], cwd=self.folder)
-        time.sleep(0.3)
-        run.kill()
-        run.wait(timeout=TIME_LIMIT)
-        merge = ("merge", "shared/part-1-of-2", "shared/part-2-of-2", "-o", "shared/index.csv", "--quiet")
-        self.assert_refused(self.run_program(*merge), ["part-2-of-2: no such file"])
-        self.run_well(*SWEEP, "-o", "shared", "--part", "2/2", "--quiet", "--force")
-        self.run_well(*merge)
-        self.assertEqual((self.folder / "shared/index.csv").read_bytes(), (self.folder / "out/index.csv").read_bytes())
-        for i in range(1, 10):
-            name = f"run_{i:03}.h5"
-            self.assertEqual(differences(self.folder / "out" / name, self.folder / "shared" / name), [])
 
     def test_force_replaces_and_its_absence_protects(self):
         self.run_well(*SWEEP, "-o", "out", "--quiet")

@@ -14,6 +14,16 @@ from program import BLADE, edited
 # A rigid rotor on two bearings that cross-couple more and more with the speed: its critical speeds, and flutter at 95.66 rev/s
 # (of the whole shaft) come from the speed in three places: the spin of the discs, the coupling, and the harmonics.
 ROTOR = """\
+prismatic = [
+  { from = [0, 0, 0], to = "slide y", axis = [0, 1, 0] },
+  { from = "slide y", to = "slide", axis = [0, 0, 1] },
+]
+body = [
+  { name = "disc", mass = "m", inertia = ["Ip", "Id", "Id"], position = [0, 0, 0], markers = { left = [-0.3, 0, 0], right = [0.4, 0, 0] } },
+  { name = "slide", mass = 0, position = [0, 0, 0] },
+  { name = "slide y", mass = 0, position = [0, 0, 0] },
+]
+
 [parameters]
 speed = { value = 100, unit = "UNIT" }
 m   = 40
@@ -29,13 +39,6 @@ tolerance = 1e-9
 
 [events]
 harmonics = 1
-
-[[body]]
-name = "disc"
-mass = "m"
-inertia = ["Ip", "Id", "Id"]
-position = [0, 0, 0]
-markers = { left = [-0.3, 0, 0], right = [0.4, 0, 0] }
 
 [[spinning_disc]]
 axis = "disc.x"
@@ -58,38 +61,12 @@ second = [0, 0, 1]
 stiffness = [[2e6, "kxy"], ["-kxy", 1e6]]
 damping = [[200, 0], [0, 150]]
 
-[[point_on_plane]]
-from = [0, 0, 0]
-to = "disc"
-normal = [1, 0, 0]
-
 [[universal]]
 from = { body = "slide", at = [0, 0, 0] }
 to = "disc"
 axis = [0, 1, 0]
 cross_axis = [0, 0, 1]
-
-[[body]]
-name = "slide"
-mass = 0
-position = [0, 0, 0]
-
-[[prismatic]]
-from = [0, 0, 0]
-to = "slide y"
-axis = [0, 1, 0]
-
-[[body]]
-name = "slide y"
-mass = 0
-position = [0, 0, 0]
-
-[[prismatic]]
-from = "slide y"
-to = "slide"
-axis = [0, 0, 1]
 """
-ROTOR = edited(ROTOR, '[[point_on_plane]]\nfrom = [0, 0, 0]\nto = "disc"\nnormal = [1, 0, 0]\n\n', "")
 
 # Units of the speed: rad/s in one of them.
 SPEEDS = {"rad/s": 1.0, "rpm": math.pi / 30, "rev/s": 2 * math.pi, "Hz": 2 * math.pi, "kHz": 2000 * math.pi, "deg/s": math.pi / 180}

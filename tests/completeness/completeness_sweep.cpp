@@ -11,6 +11,7 @@
 //         everything about one seed; its scene with --scene
 //
 // Exit code 1 when anything failed.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -93,7 +94,7 @@ struct Summary {
 struct Options {
   std::uint64_t seeds = 1000, first = 1;
   int few = 0;
-  bool single = false, reversed = false, scene = false, veerings = false;
+  bool reversed = false, scene = false, veerings = false;
   std::string scenes;
 };
 
@@ -194,43 +195,21 @@ int show(const Options& options) {
   return report.passed() ? 0 : 1;
 }
 
-int usage() {
-  std::fprintf(
-      stderr,
-      "usage: completeness_sweep [--seeds N] [--first S] [--reversed] [--scenes FOLDER] | --seed S "
-      "[--reversed] [--scene] | --veerings [--seeds N] [--first S] [--reversed] | --few K [--seeds N] "
-      "[--first S] [--reversed]\n");
-  return 2;
-}
-
 int run(int argc, char** argv) {
+  CLI::App program("Traces random families and compares their events with a reference.");
   Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option == "--scene") {
-      options.scene = true;
-    } else if (option == "--veerings") {
-      options.veerings = true;
-    } else if (option == "--reversed") {
-      options.reversed = true;
-    } else if (i + 1 == argc) {
-      return usage();
-    } else if (option == "--scenes") {
-      options.scenes = argv[++i];
-    } else if (option == "--few") {
-      options.few = std::stoi(argv[++i]);
-    } else if (option == "--seeds") {
-      options.seeds = std::stoull(argv[++i]);
-    } else if (option == "--first" || option == "--seed") {
-      options.first = std::stoull(argv[++i]);
-      options.single = options.single || option == "--seed";
-    } else {
-      return usage();
-    }
-  }
+  program.add_option("--seeds", options.seeds, "how many");
+  program.add_option("--first", options.first, "the first of them");
+  const CLI::Option* single = program.add_option("--seed", options.first, "everything about this one");
+  program.add_option("--few", options.few, "as many of the slowest modes, against all");
+  program.add_option("--scenes", options.scenes, "folder for the scenes of seeds that fail");
+  program.add_flag("--veerings", options.veerings, "compares veerings");
+  program.add_flag("--reversed", options.reversed, "from the other end of the range");
+  program.add_flag("--scene", options.scene, "prints the scene of the seed");
+  CLI11_PARSE(program, argc, argv);
   if (options.veerings) return sweep_veerings(options);
   if (options.few > 0) return sweep_few(options);
-  return options.single ? show(options) : sweep(options);
+  return single->count() > 0 ? show(options) : sweep(options);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 //         everything about one seed; its scene with --scene
 //
 // Exit code 1 when anything failed.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
 
@@ -36,41 +37,27 @@ bool check(const MasslessFamily& family, bool reversed, bool all, long& nodes) {
   return report.problems.empty();
 }
 
-int usage() {
-  std::fprintf(stderr, "usage: infinity_sweep [--seeds N] [--first S] | --seed S [--scene]\n");
-  return 2;
-}
-
 int run(int argc, char** argv) {
+  CLI::App program("Traces random families with massless freedoms in both directions.");
   std::uint64_t seeds = 100;
   std::uint64_t first = 1;
-  bool single = false;
   bool scene = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option == "--scene") {
-      scene = true;
-    } else if (i + 1 == argc) {
-      return usage();
-    } else if (option == "--seeds") {
-      seeds = std::stoull(argv[++i]);
-    } else if (option == "--first" || option == "--seed") {
-      first = std::stoull(argv[++i]);
-      single = single || option == "--seed";
-    } else {
-      return usage();
-    }
-  }
+  program.add_option("--seeds", seeds, "how many");
+  program.add_option("--first", first, "the first of them");
+  const CLI::Option* single = program.add_option("--seed", first, "everything about this one");
+  program.add_flag("--scene", scene, "prints the scene of the seed");
+  CLI11_PARSE(program, argc, argv);
   if (scene) {
     std::printf("%s", massless_family(first).scene().c_str());
     return 0;
   }
-  if (single) seeds = 1;
+  const bool all = single->count() > 0;
+  if (all) seeds = 1;
   int failed = 0;
   long nodes = 0;
   for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
     const MasslessFamily family = massless_family(seed);
-    for (const bool reversed : {false, true}) failed += !check(family, reversed, single, nodes);
+    for (const bool reversed : {false, true}) failed += !check(family, reversed, all, nodes);
   }
   std::printf("%lu traces, %d failed, %ld points\n", static_cast<unsigned long>(2 * seeds), failed, nodes);
   return failed == 0 ? 0 : 1;

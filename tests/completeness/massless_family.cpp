@@ -198,9 +198,7 @@ class Comparison {
 }  // namespace
 
 std::string MasslessFamily::scene() const {
-  return family_scene(from, to,
-                      "M = " + matrices_text(matrices.M) + "\nC = " + matrices_text(matrices.C) +
-                          "\nK = " + matrices_text(matrices.K) + "\n");
+  return family_scene(matrices, from, to);
 }
 
 std::vector<Complex> MasslessFamily::spectrum(double p) const {

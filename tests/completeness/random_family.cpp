@@ -212,9 +212,7 @@ const char* name_of(FamilyKind kind) {
 }
 
 std::string RandomFamily::scene() const {
-  return family_scene(from, to,
-                      "M = " + matrices_text(matrices.M) + "\nC = " + matrices_text(matrices.C) +
-                          "\nK = " + matrices_text(matrices.K) + "\n");
+  return family_scene(matrices, from, to);
 }
 
 RandomFamily random_family(std::uint64_t seed) {

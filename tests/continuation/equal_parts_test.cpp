@@ -220,16 +220,9 @@ TEST(EqualParts, AreFollowedAsFarAsAskedFor) {
 /// p / (2 sqrt(k)) is 0.1 at p = 0.2 sqrt(k).
 TEST(EqualParts, HaveSensitivitiesOfTheirOwn) {
   const RecordedTrace found = record_trace(make_setting(R"(
-[parameters]
-k1 = 4.0
-k2 = 4.0
-[trace]
-parameter = "p"
-from = 0.1
-to = 1
-tolerance = 1e-9
-[events]
-damping_ratio = 0.1
+parameters = { k1 = 4.0, k2 = 4.0 }
+trace = { parameter = "p", from = 0.1, to = 1, tolerance = 1e-9 }
+events = { damping_ratio = 0.1 }
 [matrix_family]
 M = [[[1, 0], [0, 1]]]
 C = [[[0, 0], [0, 0]], [[1, 0], [0, 1]]]
@@ -280,28 +273,15 @@ TEST(PartCrossings, NeedEqualRealParts) {
 RecordedTrace mass_on_equal_springs(const std::string& from, const std::string& to,
                                     const std::string& tolerance = "1e-9") {
   return record_trace(make_setting(R"(
-[parameters]
-drag = 1.0
-[trace]
-parameter = "drag"
-[[point]]
-name = "disc"
-mass = 1
-position = [0, 0, 0]
-[[guided_spring]]
-point = "disc"
-direction = [1, 0, 0]
-stiffness = 1
-[[guided_spring]]
-point = "disc"
-direction = [0, 1, 0]
-stiffness = 1
-[[fixed]]
-point = "disc"
-coordinate = "z"
-[[drag]]
-point = "disc"
-coefficient = "drag"
+parameters = { drag = 1.0 }
+trace = { parameter = "drag" }
+point = [{ name = "disc", mass = 1, position = [0, 0, 0] }]
+guided_spring = [
+  { point = "disc", direction = [1, 0, 0], stiffness = 1 },
+  { point = "disc", direction = [0, 1, 0], stiffness = 1 },
+]
+fixed = [{ point = "disc", coordinate = "z" }]
+drag = [{ point = "disc", coefficient = "drag" }]
 )",
                                    {{"from", from}, {"to", to}, {"tolerance", tolerance}}));
 }
@@ -331,31 +311,13 @@ TEST(EqualPartsOfAScene, AllFourRealEigenvaluesAreModes) {
 /// 0.1 at d* = 0.2 m sqrt(g/L); the length changes the constraint, the equilibrium and the tangent space.
 TEST(EqualPartsOfAScene, MoveWithParametersThatMoveTheirTangentSpace) {
   const RecordedTrace trace = record_trace(make_setting(R"(
-[parameters]
-drag = 0.1
-length = 2.0
-mass = 3.0
-g = 9.0
-[trace]
-parameter = "drag"
-from = 0.1
-to = 5
-tolerance = 1e-9
-[events]
-damping_ratio = 0.1
-[gravity]
-acceleration = [0, 0, "-g"]
-[[point]]
-name = "bob"
-mass = "mass"
-position = [0, 0, "-length"]
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = "length"
-[[drag]]
-point = "bob"
-coefficient = "drag"
+parameters = { drag = 0.1, length = 2.0, mass = 3.0, g = 9.0 }
+trace = { parameter = "drag", from = 0.1, to = 5, tolerance = 1e-9 }
+events = { damping_ratio = 0.1 }
+gravity = { acceleration = [0, 0, "-g"] }
+point = [{ name = "bob", mass = "mass", position = [0, 0, "-length"] }]
+rod = [{ from = [0, 0, 0], to = "bob", length = "length" }]
+drag = [{ point = "bob", coefficient = "drag" }]
 )"));
   ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
   ASSERT_EQ(trace.result.events.size(), 2U);

@@ -329,27 +329,6 @@ TEST_F(Hdf5FileTest, MembersAreListedByName) {
   EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { (void)read_back(file).members("/none"); }), "none"));
 }
 
-TEST_F(Hdf5FileTest, FilesThatCannotBeOpenedAreNamed) {
-  const std::string missing = path_of("_missing.h5");
-  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5File::open(missing); }), missing));
-  EXPECT_TRUE(
-      contains(error_text<Hdf5Error>([&] { Hdf5File::open(testing::TempDir()); }), testing::TempDir()));
-  std::ofstream(path) << "title = \"no HDF5\"\n";
-  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5File::open(path); }), path));
-  const std::string nowhere = testing::TempDir() + "no/such/folder/x.h5";
-  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5Writer::create(nowhere); }), nowhere));
-}
-
-TEST_F(Hdf5FileTest, TruncatedFilesAreRefused) {
-  {
-    Hdf5Writer file = Hdf5Writer::create(path);
-    file.create_dataset(fixed("x", ElementType::real, {1000}));
-    file.write_rows("x", 0, std::vector<double>(1000, 1.0));
-  }
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  EXPECT_TRUE(contains(error_text<Hdf5Error>([&] { Hdf5File::open(path); }), path));
-}
-
 /// One dataset and one attribute of every type.
 Hdf5Writer file_of_all_types(const std::string& path) {
   Hdf5Writer file = Hdf5Writer::create(path);

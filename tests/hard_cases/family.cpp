@@ -1,7 +1,6 @@
 #include "hard_cases/family.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace eigentrail::test {
@@ -29,31 +28,6 @@ Matrix quarter_turn() {
   return rows({{0, -1}, {1, 0}});
 }
 
-std::string matrices_text(const MatrixSeries& series) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[";
-  for (std::size_t k = 0; k < series.size(); ++k) {
-    text << (k == 0 ? " [" : ",\n      [");
-    for (Eigen::Index r = 0; r < series[k].rows(); ++r) {
-      text << (r == 0 ? "[" : ", [");
-      for (Eigen::Index c = 0; c < series[k].cols(); ++c) text << (c == 0 ? "" : ", ") << series[k](r, c);
-      text << "]";
-    }
-    text << "]";
-  }
-  text << " ]";
-  return text.str();
-}
-
-std::string family_scene(double from, double to, const std::string& matrices) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[trace]\nparameter = \"p\"\nfrom = " << from << "\nto = " << to << "\n\n[matrix_family]\n"
-       << matrices;
-  return text.str();
-}
-
 WidePencil evaluate(const Family& family, WideComplex p) {
   const Eigen::Index n = family.M[0].rows();
   return {evaluate(family.M, n, p), evaluate(family.C, n, p), evaluate(family.K, n, p)};
@@ -61,11 +35,8 @@ WidePencil evaluate(const Family& family, WideComplex p) {
 
 HardCase family_case(const std::string& name, const std::string& source, double from, double to,
                      const Family& family, std::vector<SpecialPoint> special) {
-  std::string matrices = "M = " + matrices_text(family.M) + "\n";
-  if (!family.C.empty()) matrices += "C = " + matrices_text(family.C) + "\n";
-  matrices += "K = " + matrices_text(family.K) + "\n";
   return expression_case(
-      name, source, from, to, family_scene(from, to, matrices),
+      name, source, from, to, family_scene(family, from, to),
       [family](WideComplex p) { return evaluate(family, p); }, std::move(special));
 }
 

@@ -5,28 +5,20 @@
 #include <vector>
 
 #include "hard_cases/catalogue.hpp"
+#include "support/matrix_text.hpp"
 
 namespace eigentrail::test {
 
 /// Source of cases of our own.
 constexpr const char* own_closed_form = "own derivation, closed form";
 
-/// Coefficients of powers of p, lowest first; C may be empty.
-struct Family {
-  MatrixSeries M, C, K;
-};
+using Family = FamilyMatrices;
 
 /// Real matrix from rows, for families written by hand.
 Matrix rows(std::initializer_list<std::initializer_list<double>> values);
 Matrix diagonal(std::initializer_list<double> values);
 /// {{0, -1}, {1, 0}}.
 Matrix quarter_turn();
-
-/// Text of a TOML list of matrices with 17 significant digits.
-std::string matrices_text(const MatrixSeries& series);
-
-/// "[trace] ... [matrix_family]" with the parameter p; `matrices` are the lines "M = ...".
-std::string family_scene(double from, double to, const std::string& matrices);
 
 WidePencil evaluate(const Family& family, WideComplex p);
 

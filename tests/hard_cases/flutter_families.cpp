@@ -18,7 +18,7 @@ WideComplexMatrix wide(const Matrix& matrix) {
 HardCase recollision() {
   const double pi = std::numbers::pi;
   const std::string scene =
-      family_scene(0.0, 2.0 * pi, "M = [ [[1]] ]\nC = [ [[\"2*(1 + 0.5*cos(p))\"]] ]\nK = [ [[1]] ]\n");
+      family_scene("M = [ [[1]] ]\nC = [ [[\"2*(1 + 0.5*cos(p))\"]] ]\nK = [ [[1]] ]\n", 0.0, 2.0 * pi);
   const auto damping = [](WideComplex p) { return Wide(2) + std::cos(p); };
   HardCase result = expression_case(
       "H07_recollision", own_closed_form, 0.0, 2.0 * pi, scene,

@@ -7,10 +7,9 @@
 // First steps are shares of the range, 0 the program's own; names may be beginnings of names. What does not
 // hold is printed on stderr, a line per run. Exit code 0: everything holds; 1: something does not; 2: bad
 // usage.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -88,46 +87,6 @@ bool print_case(const HardCase& hard_case, const TableOptions& options) {
   return passed;
 }
 
-/// Numbers separated by commas, each between 0 and 1; throws std::invalid_argument otherwise.
-std::vector<double> shares(const std::string& text) {
-  std::vector<double> values;
-  std::istringstream list(text);
-  for (std::string item; std::getline(list, item, ',');) {
-    char* end = nullptr;
-    values.push_back(std::strtod(item.c_str(), &end));
-    const bool is_number = !item.empty() && *end == '\0';
-    if (!is_number || !(values.back() >= 0.0 && values.back() <= 1.0))
-      throw std::invalid_argument("expected a share of the range, got " + item);
-  }
-  if (values.empty()) throw std::invalid_argument("expected first steps");
-  return values;
-}
-
-TableOptions read_options(const std::vector<std::string>& arguments) {
-  TableOptions options;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& option = arguments[i];
-    const auto value = [&] {
-      if (i + 1 == arguments.size()) throw std::invalid_argument(option + " needs a value");
-      return arguments[++i];
-    };
-    if (option == "--rivals") {
-      options.rivals = true;
-    } else if (option == "--samples") {
-      options.samples = std::stoi(value());
-    } else if (option == "--first-steps") {
-      options.first_steps = shares(value());
-    } else if (option == "--scene") {
-      options.scene = value();
-    } else if (option.starts_with("-")) {
-      throw std::invalid_argument("unknown option " + option);
-    } else {
-      options.names.push_back(option);
-    }
-  }
-  return options;
-}
-
 bool wanted(const HardCase& hard_case, const TableOptions& options) {
   const auto begins = [&](const std::string& name) { return hard_case.name.starts_with(name); };
   return options.names.empty() || std::any_of(options.names.begin(), options.names.end(), begins);
@@ -145,18 +104,28 @@ bool print_table(const TableOptions& options) {
 }
 
 int run(int argc, char** argv) {
+  CLI::App program("Traces the hard cases and prints their figures.");
   TableOptions options;
+  program.add_flag("--rivals", options.rivals, "errors of the usual methods as well");
+  program.add_option("--samples", options.samples, "random parameters of each case")
+      ->check(CLI::NonNegativeNumber);
+  program.add_option("--first-steps", options.first_steps, "shares of the range; 0: the program's own")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1.0));
+  program.add_option("--scene", options.scene, "prints the scene of this case and nothing else");
+  program.add_option("names", options.names, "beginnings of names; none: all cases");
   try {
-    options = read_options({argv + 1, argv + argc});
+    program.parse(argc, argv);
     if (!options.scene.empty()) {
       std::printf("%s", hard_case(options.scene).scene.c_str());
       return 0;
     }
     const auto any = [&](const HardCase& hard_case) { return wanted(hard_case, options); };
     if (std::none_of(hard_cases().begin(), hard_cases().end(), any))
-      throw std::invalid_argument("no case of that name");
-  } catch (
-      const std::logic_error& error) {  // also what the standard library says of texts that are no numbers
+      throw CLI::ValidationError("names", "no case of that name");
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  } catch (const std::out_of_range& error) {
     std::fprintf(stderr, "hard_case_table: %s\n", error.what());
     return 2;
   }

@@ -76,17 +76,16 @@ HardCase same_pair_twice() {
 
 /// The constraint x3 = p x1 turns with p; the reduced pencil is circulatory and coalesces.
 HardCase constrained_exceptional_point() {
-  const Family free{
-      {identity(3)}, {}, {diagonal({1, 2, 0.5}), rows({{0, 2, 0}, {-2, 0, 0.3}, {0, -0.3, 0}})}};
+  const Family free{{identity(3)},
+                    {},
+                    {diagonal({1, 2, 0.5}), rows({{0, 2, 0}, {-2, 0, 0.3}, {0, -0.3, 0}})},
+                    {rows({{0, 0, -1}}), rows({{1, 0, 0}})}};
   const Family reduced{{identity(2), Matrix::Zero(2, 2), diagonal({1, 0})},
                        {},
                        {diagonal({1, 2}), rows({{0, 2}, {-2, 0}}), rows({{0.5, -0.3}, {0.3, 0}})}};
   HardCase result = family_case("constrained_exceptional_point", own_closed_form, 0.0, 1.0, reduced,
                                 {{"collision", 0.281036879269310891975, {0.0, 1.21725097600560612207}}});
-  const MatrixSeries A = {rows({{0, 0, -1}}), rows({{1, 0, 0}})};
-  result.scene = family_scene(
-      0.0, 1.0,
-      "M = " + matrices_text(free.M) + "\nK = " + matrices_text(free.K) + "\nA = " + matrices_text(A) + "\n");
+  result.scene = family_scene(free, 0.0, 1.0);
   set_spectrum(result, [](Wide p) {
     // (1 + p^2) mu^2 - (k + 2 (1 + p^2)) mu + 2 k + q^2 = 0, k = 1 + p^2 / 2, q = 2 p - 0.3 p^2.
     const Wide a = 1 + p * p;

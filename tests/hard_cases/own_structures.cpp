@@ -138,7 +138,7 @@ HardCase whirl_anisotropic(const std::string& name, double d, std::vector<Specia
 /// s^2 + 0.2 s + tan p.
 HardCase tangent_divergence() {
   const std::string scene =
-      family_scene(1.0, -0.5, "M = [ [[1]] ]\nC = [ [[0.2]] ]\nK = [ [[\"tan(p)\"]] ]\n");
+      family_scene("M = [ [[1]] ]\nC = [ [[0.2]] ]\nK = [ [[\"tan(p)\"]] ]\n", 1.0, -0.5);
   const auto pencil = [](WideComplex p) {
     WidePencil result{WideComplexMatrix::Ones(1, 1), WideComplexMatrix::Ones(1, 1),
                       WideComplexMatrix::Ones(1, 1)};

@@ -100,11 +100,6 @@ TEST(Multibody, FixedEquilibriumWithoutConstraintsIsSolvedAtTheStart) {
   EXPECT_GT(recorded.result.counts.equilibrium_iterations, 0U);
 }
 
-TEST(Multibody, ForceOnAFixedPlaceIsRefused) {
-  EXPECT_THROW(scene_setting("rotating_mass", {}, {{"point = \"blade\"\nhinge", "point = [6, 0, 0]\nhinge"}}),
-               InputError);
-}
-
 TEST(Multibody, SensitivityToADerivedParameterIsRefused) {
   const Setting setting = scene_setting("rotating_mass", {},
                                         {{"[trace]", "half = \"drag / 2\"\n[trace]"},

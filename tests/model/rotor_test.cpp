@@ -15,12 +15,13 @@ namespace {
 
 /// A rotor all of whose quantities depend on p.
 const std::string everything = R"(
-[trace]
-parameter = "p"
-from = 0.5
-to = 1
-[parameters]
-p = 0.7
+trace = { parameter = "p", from = 0.5, to = 1 }
+parameters = { p = 0.7 }
+disc = [
+  { node = "inner node 2", mass = "20*p", Id = "0.2*p", Ip = "0.35*p^2" },
+  { node = "outer node 3", outer = "0.3*p", width = 0.02, density = 7800 },
+]
+support = [{ node = ["outer 3"] }]
 [[shaft]]
 name = "inner"
 stations = { length = ["0.3 + 0.1*p", 0.5], outer = [0.05, "0.06*p"], inner = ["0.02*p", 0] }
@@ -43,16 +44,6 @@ E = 2e11
 G = "8e10*p^0.1"
 density = 7800
 speed = "-450*p"
-[[disc]]
-node = "inner node 2"
-mass = "20*p"
-Id = "0.2*p"
-Ip = "0.35*p^2"
-[[disc]]
-node = "outer node 3"
-outer = "0.3*p"
-width = 0.02
-density = 7800
 [[bearing]]
 node = "inner 1"
 kxx = "1e7*p"
@@ -67,8 +58,6 @@ kzz = "1e6*p"
 between = ["inner node 4", "outer node 1"]
 kxx = "1e7/p"
 cxx = 100
-[[support]]
-node = ["outer 3"]
 )";
 
 Path straight_path(const Model& model, double p, double slope) {

@@ -39,14 +39,10 @@ SharedModes shared_modes(const std::string& scene) {
 }
 
 const std::string hanging_bar = R"(
-[parameters]
-g = 9.81
-[trace]
-parameter = "g"
-from = 5
-to = 10
-[gravity]
-acceleration = [0, 0, "-g"]
+parameters = { g = 9.81 }
+trace = { parameter = "g", from = 5, to = 10 }
+gravity = { acceleration = [0, 0, "-g"] }
+revolute = [{ from = [0, 0, 0], to = "bar", axis = [0, 1, 0] }]
 [[body]]
 name = "bar"
 mass = 3
@@ -55,10 +51,6 @@ inertia = [0, "3*1.4^2/12", "3*1.4^2/12"]
 position = [0, 0, 0]
 x_axis = [0, 0, -1]
 y_axis = [0, 1, 0]
-[[revolute]]
-from = [0, 0, 0]
-to = "bar"
-axis = [0, 1, 0]
 )";
 
 TEST(EnergyShares, OfAHangingBarAreThreeQuartersTranslation) {
@@ -70,14 +62,15 @@ TEST(EnergyShares, OfAHangingBarAreThreeQuartersTranslation) {
 }
 
 const std::string blade = R"(
-[parameters]
-omega = 20
-[trace]
-parameter = "omega"
-from = 20
-to = 30
-[frame]
-angular_velocity = [0, 0, "omega"]
+parameters = { omega = 20 }
+trace = { parameter = "omega", from = 20, to = 30 }
+frame = { angular_velocity = [0, 0, "omega"] }
+revolute = [
+  { name = "flap", from = [0, 0.3, 0], to = "cuff", axis = [1, 0, 0] },
+  { name = "lag", from = "cuff", to = "yoke", axis = [0, 0, 1] },
+  { name = "pitch", from = "yoke", to = "blade", axis = [0, 1, 0] },
+]
+torsional_spring = [{ joint = "pitch", stiffness = 1000 }]
 [[body]]
 name = "cuff"
 mass = 0
@@ -92,24 +85,6 @@ mass = 12
 centre = [0, 2, 0]
 inertia = [16, 0.02, 16]
 position = [0, 0.3, 0]
-[[revolute]]
-name = "flap"
-from = [0, 0.3, 0]
-to = "cuff"
-axis = [1, 0, 0]
-[[revolute]]
-name = "lag"
-from = "cuff"
-to = "yoke"
-axis = [0, 0, 1]
-[[revolute]]
-name = "pitch"
-from = "yoke"
-to = "blade"
-axis = [0, 1, 0]
-[[torsional_spring]]
-joint = "pitch"
-stiffness = 1000
 )";
 
 TEST(EnergyShares, OfABladeAreLagFlapAndTorsion) {
@@ -124,46 +99,23 @@ TEST(EnergyShares, OfABladeAreLagFlapAndTorsion) {
 
 TEST(EnergyShares, EqualNamesAreNumbered) {
   const SharedModes modes = shared_modes(R"(
-[parameters]
-k = 4
-[trace]
-parameter = "k"
-from = 4
-to = 5
-[[point]]
-name = "a"
-mass = 1
-position = [0, 0, 0]
-[[point]]
-name = "b"
-mass = 1
-position = [1, 0, 0]
-[[fixed]]
-point = "a"
-coordinate = "y"
-[[fixed]]
-point = "b"
-coordinate = "y"
-[[fixed]]
-point = "a"
-coordinate = "z"
-[[fixed]]
-point = "b"
-coordinate = "z"
-[[guided_spring]]
-point = "a"
-direction = [1, 0, 0]
-stiffness = "k"
-[[guided_spring]]
-point = "b"
-direction = [1, 0, 0]
-stiffness = "k"
-reference = 1
-[[spring]]
-from = "a"
-to = "b"
-stiffness = 3
-free_length = 1
+parameters = { k = 4 }
+trace = { parameter = "k", from = 4, to = 5 }
+point = [
+  { name = "a", mass = 1, position = [0, 0, 0] },
+  { name = "b", mass = 1, position = [1, 0, 0] },
+]
+fixed = [
+  { point = "a", coordinate = "y" },
+  { point = "b", coordinate = "y" },
+  { point = "a", coordinate = "z" },
+  { point = "b", coordinate = "z" },
+]
+guided_spring = [
+  { point = "a", direction = [1, 0, 0], stiffness = "k" },
+  { point = "b", direction = [1, 0, 0], stiffness = "k", reference = 1 },
+]
+spring = [{ from = "a", to = "b", stiffness = 3, free_length = 1 }]
 )");
   EXPECT_EQ(modes.names, (std::vector<std::string>{"along x 1", "along x 2"}));
   EXPECT_NEAR(modes.share("a", "along x", 0), 0.5, 1e-12);

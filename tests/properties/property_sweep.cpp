@@ -4,9 +4,9 @@
 //     property_sweep --seed S [--scene]         everything about one seed; its scene with --scene
 //
 // Exit code 1 when anything failed.
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <string>
 
@@ -82,36 +82,17 @@ int sweep(std::uint64_t from, std::uint64_t seeds) {
   return summary.failed == 0 ? 0 : 1;
 }
 
-int usage() {
-  std::fprintf(stderr, "usage: property_sweep [--seeds N] [--from S] | --seed S [--scene]\n");
-  return 2;
-}
-
 int run(int argc, char** argv) {
+  CLI::App program("Traces families with planted special points, one per seed.");
   std::uint64_t seeds = 1000;
   std::uint64_t from = 1;
   bool scene = false;
-  bool single = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option == "--scene") {
-      scene = true;
-      continue;
-    }
-    if (i + 1 == argc) return usage();
-    const std::uint64_t value = std::stoull(argv[++i]);
-    if (option == "--seeds") {
-      seeds = value;
-    } else if (option == "--from") {
-      from = value;
-    } else if (option == "--seed") {
-      from = value;
-      single = true;
-    } else {
-      return usage();
-    }
-  }
-  if (!single) return sweep(from, seeds);
+  program.add_option("--seeds", seeds, "how many");
+  program.add_option("--from", from, "the first of them");
+  const CLI::Option* single = program.add_option("--seed", from, "everything about this one");
+  program.add_flag("--scene", scene, "prints the scene of the seed");
+  CLI11_PARSE(program, argc, argv);
+  if (single->count() == 0) return sweep(from, seeds);
   const PlantedFamily family = planted_family(from);
   if (scene) {
     std::printf("%s", family.as_case().scene.c_str());

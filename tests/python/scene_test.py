@@ -5,7 +5,6 @@ import pathlib
 import tempfile
 import tomllib
 import unittest
-from functools import partial
 
 import eigentrail as et
 import numpy as np
@@ -99,34 +98,6 @@ class Faults(unittest.TestCase):
         self.assert_fails(et.SceneError, "at: expected finite numbers", et.spectrum, BLADE, at="x")
         self.assert_fails(ValueError, "is no HDF5 file", et.open, __file__)
         self.assert_fails(FileNotFoundError, "no such folder", et.trace(FAMILY).eigentrail.save, "/nowhere/at/all.h5")
-
-    def test_ranges(self):
-        self.assert_fails(et.SceneError, "expected a range of two values", et.trace, BLADE, omega=(1, 2, 3))
-        self.assert_fails(et.SceneError, "omega: is the traced parameter; give it a range, omega=(from, to)", et.trace, BLADE, omega=30)
-        self.assert_fails(et.SceneError, "the range of one parameter", et.trace, BLADE, omega=(1, 2), drag=(1, 2))
-        self.assert_fails(et.SceneError, "the ranges of two parameters", et.map, BLADE)
-        self.assert_fails(et.SceneError, "numbers in the unit", et.map, BLADE, drag=("1", "2"))
-
-    def test_names_that_mean_nothing_are_errors_with_a_suggestion(self):
-        trace, family = partial(et.trace, BLADE), et.Family(M=[[1.0]], K=[[[1.0]], [[1.0]]], parameter="p")
-        for function, names, text in (
-                (trace, {"drug": 3}, "drug: is no parameter of the scene, and no keyword of trace; did you mean 'drag'?"),
-                (trace, {"tolerence": 1e-8}, "did you mean 'tolerance'?"), (trace, {"omgea": (100, 5)}, "did you mean 'omega'?"),
-                (trace, {"settings": {"drug": 3}}, "did you mean 'drag'?"), (trace, {"viscosity": 2}, "known: omega, mass, length"),
-                (trace, {"options": {"max_stp": 1}}, "did you mean 'max_step'?"),
-                (trace, {"events": {"harmonic": [1]}}, "did you mean 'harmonics'?"),
-                (trace, {"modes": {"cuont": 2}}, "did you mean 'count'?"),
-                (partial(et.sweep, BLADE), {"over": {"drug": [1, 2]}}, "did you mean 'drag'?"),
-                (partial(et.sweep, BLADE, {"drag": [1, 2]}), {"tolerence": 1e-8}, "did you mean 'tolerance'?"),
-                (partial(et.map, BLADE), {"drag": (1, 2), "gird": 3}, "did you mean 'grid'?"),
-                (partial(et.boundary, BLADE), {"drug": (1, 2)}, "did you mean 'drag'?"),
-                (partial(et.spectrum, BLADE), {"mdoes": 2}, "did you mean 'modes'?"),
-                (partial(et.explain, BLADE), {"sensitvity": True}, "did you mean 'sensitivity'?"),
-                (partial(et.trace, family), {"omega": (0, 1)}, "omega: is no parameter"),
-                (partial(et.from_files, "numpi", "a.npz"), {}, "did you mean 'numpy'?"),
-                (partial(et.from_files, "numpy", "a.npz"), {"digit": 3}, "did you mean 'digits'?")):
-            with self.subTest(text, names=names):
-                self.assert_fails(et.SceneError, text, function, **names)
 
     def test_messages_have_the_words_of_python(self):
         as_dict = tomllib.loads(BLADE)

@@ -67,12 +67,6 @@ class Sweeps(unittest.TestCase):
         self.assertIn("length: must be positive; found -1", str(swept.message.values[1]))
         self.assertIsInstance(swept.eigentrail.runs[(-1,)], et.SceneError)
 
-    def test_mistakes(self):
-        for over, how, text in (({}, {}, "at least one parameter"), ({"drag": []}, {}, "at least one parameter"),
-                                ({"drag": [1]}, {"drag": 2}, "swept"), ({"omega": [1, 2]}, {}, "is the traced parameter"), ({"drog": [1]}, {}, "did you mean 'drag'")):
-            with self.subTest(text), self.assertRaisesRegex(et.SceneError, text):
-                et.sweep(BLADE, over, **how)
-
 
 class Gradients(unittest.TestCase):
     """Against central differences of two traces."""

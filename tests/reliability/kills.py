@@ -228,7 +228,9 @@ def fill_once(trace, chance, counts):
                                 r"(\d+ points are in \S+; make room, then the same command with --resume goes on"
                                 r"|nothing was saved)\n", said), said
             counts.killed += 1
-            counts.before_first_save += trace.check_readable(disk.output) is None
+            points = trace.check_readable(disk.output)
+            assert points is None or f" {points} points are in " in said, (points, said)
+            counts.before_first_save += points is None
         assert {path.name for path in disk.place.iterdir()} <= {"out.h5"}, list(disk.place.iterdir())
         disk.make_room()
         trace.finish(disk.output)

@@ -6,7 +6,7 @@ import unittest
 import h5py
 
 from command_test_case import CommandTest
-from program import BLADE, EXIT_BAD_INPUT, edited
+from program import BLADE, edited
 from report_page import page_data
 
 HOSTILE = '</script><script>alert(1)</script><img src=x onerror=alert(2)>\'"&'
@@ -35,39 +35,10 @@ class ReportCommand(CommandTest):
         self.refused("loci.h5", "-o", "page.html", fragments=["page.html: exists already", "--force"])
         self.run_well("report", "loci.h5", "-o", "page.html", "--force")
 
-    def test_force_replaces_nothing_else(self):
+    def test_force_replaces_no_other_page(self):
         self.trace(BLADE)
         self.write("notes.html", "<!DOCTYPE html>\n<p>mine</p>")
-        for name in ("notes.html", "loci.h5", "scene.toml"):
-            self.refused("loci.h5", "-o", name, "--force", fragments=[f"{name}: is no readable report"])
-
-    def test_folder_and_missing_folder_are_refused(self):
-        self.trace(BLADE)
-        (self.folder / "folder").mkdir()
-        self.refused("loci.h5", "-o", "folder", fragments=["folder: is a folder"])
-        self.refused("loci.h5", "-o", "nowhere/page.html", fragments=["the folder nowhere does not exist"])
-
-    def test_files_that_are_not_ours_are_refused(self):
-        self.write("scene.toml", BLADE)
-        with h5py.File(self.folder / "foreign.h5", "w") as file:
-            file["x"] = 1.0
-        for name, fragment in (("missing.h5", "no such file"), ("scene.toml", "is a scene, no result; trace it first"), ("foreign.h5", "none of eigentrail")):
-            self.refused(name, "-o", "page.html", fragments=[f"{name}: ", fragment])
-
-    def test_file_that_does_not_fit_itself_is_refused(self):
-        self.trace(BLADE)
-        with h5py.File(self.folder / "loci.h5", "r+") as file:
-            del file["mode_block"]
-        self.refused("loci.h5", "-o", "page.html", fragments=["loci.h5: ", "mode_block"])
-
-    def test_one_bad_file_of_several_writes_nothing(self):
-        self.trace(BLADE)
-        self.refused("loci.h5", "missing.h5", "-o", "page.html", fragments=["missing.h5"])
-
-    def test_arguments_are_asked_for(self):
-        for arguments in ((), ("loci.h5",), ("-o", "page.html")):
-            run = self.run_program("report", *arguments)
-            self.assertEqual((run.returncode, run.stdout), (EXIT_BAD_INPUT, ""))
+        self.refused("loci.h5", "-o", "notes.html", "--force", fragments=["notes.html: is no readable report"])
 
     def test_texts_of_a_file_never_become_markup(self):
         self.trace(BLADE)

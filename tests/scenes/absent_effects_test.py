@@ -24,16 +24,6 @@ class AbsentEffectsTest(ProgramTest):
         return [path for path in sorted(SCENES.glob("*.toml"))
                 if not re.search(r"\[matrix_family\]|\[shaft\]", path.read_text(encoding="utf-8"))]
 
-    def test_absent_effects_are_never_evaluated(self):
-        for scene in self.scenes():
-            with self.subTest(scene.name):
-                active, absent = formulas(self.run_well("explain", scene))
-                summary = self.run_well("trace", scene, "-o", "x.h5", "--force", "--verbose")
-                line = re.search(r"evaluations  (.*)", summary).group(1)
-                evaluated = {item.rsplit(" ", 1)[0] for item in line.split(", ")}
-                self.assertEqual(evaluated, set(active))
-                self.assertFalse(evaluated & set(absent))
-
     def test_leaving_an_effect_out_takes_its_formulas_away_and_no_others(self):
         tried = 0
         for scene in self.scenes():

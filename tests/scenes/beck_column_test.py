@@ -113,9 +113,6 @@ class BeckColumn(RotorTest):
         self.assertTrue(kinds)
         self.assertAlmostEqual(kinds[0][1], math.pi**2 / 4, delta=0.02)
 
-    def test_only_what_it_names_is_evaluated(self):
-        self.check_effects("body", "follower_force", "torsional_spring", "directors", "revolute")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -11,15 +11,9 @@ from scene_test_case import SceneTest
 
 PLACES = (9.81, 10.5, 12.0)
 HEAD = """\
-[parameters]
-g = 9.81
-n = 2.0
-[trace]
-parameter = "g"
-from = 9.81
-to = 12
-[gravity]
-acceleration = [0, 0, "-g + 0 * n"]
+parameters = { g = 9.81, n = 2.0 }
+trace = { parameter = "g", from = 9.81, to = 12 }
+gravity = { acceleration = [0, 0, "-g + 0 * n"] }
 """
 
 

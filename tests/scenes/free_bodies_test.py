@@ -8,12 +8,8 @@ import numpy as np
 from scene_test_case import SceneTest
 
 HEAD = """
-[parameters]
-k = { value = 1000.0, unit = "N/m" }
-[trace]
-parameter = "k"
-from = 500
-to = 2000
+parameters = { k = { value = 1000.0, unit = "N/m" } }
+trace = { parameter = "k", from = 500, to = 2000 }
 """
 
 BODY = HEAD + """

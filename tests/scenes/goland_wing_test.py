@@ -142,9 +142,6 @@ class GolandWing(RotorTest):
         rate = LENGTH * np.sqrt(DENSITY / 2 * V**2 * 0.08 * CHORD**2 * 6.0 / GJ)
         np.testing.assert_allclose(twist, 1e-4 * (1 / np.cos(rate) - 1), rtol=1e-4)
 
-    def test_effects(self):
-        self.check_effects("body", "beam", "directors", "weld", "strips", "lift_lag", "apparent_mass")
-
 
 if __name__ == "__main__":
     unittest.main()

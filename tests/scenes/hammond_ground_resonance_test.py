@@ -171,9 +171,6 @@ incidence = 0.1
             self.assertIn(name, coordinates)
         self.assertIn("multiblade", long_name)
 
-    def test_only_what_it_names_is_evaluated(self):
-        self.check_effects("body", "frame", "torsional_damper", "bearing", "directors", "revolute", "prismatic")
-
     def test_verify(self):
         self.assertIn("worst discrepancy", self.run_well("verify", self.trace_scene()))
 

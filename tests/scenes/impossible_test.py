@@ -4,14 +4,9 @@ import unittest
 from program import ProgramTest
 
 HEAD = """
-[parameters]
-g = 9.81
-[trace]
-parameter = "g"
-from = 5
-to = 10
-[gravity]
-acceleration = [0, "-g", 0]
+parameters = { g = 9.81 }
+trace = { parameter = "g", from = 5, to = 10 }
+gravity = { acceleration = [0, "-g", 0] }
 """
 
 BODY = """

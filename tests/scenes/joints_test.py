@@ -10,15 +10,9 @@ from scene_test_case import SceneTest
 PLACES = (9.81, 10.5, 12.0)
 
 HEAD = """\
-[parameters]
-g = 9.81
-p = 0.0
-[trace]
-parameter = "g"
-from = 9.81
-to = 12
-[gravity]
-acceleration = [0, 0, "-g + 0 * p"]
+parameters = { g = 9.81, p = 0.0 }
+trace = { parameter = "g", from = 9.81, to = 12 }
+gravity = { acceleration = [0, 0, "-g + 0 * p"] }
 """
 
 # m = 2, centre 0.3 below the hinge, 0.06 + 2 * 0.3^2 about it

@@ -133,9 +133,6 @@ class PrincetonBlade(RotorTest):
         expected = -1e-4 * p["length"]**3 / EI * (0.9 / 3 + own / 8)
         self.assertAlmostEqual(deflection[0][2] / expected, 1.0, delta=0.01)
 
-    def test_only_what_it_names_is_evaluated(self):
-        self.check_effects("point", "body", "gravity", "torsional_spring", "directors", "universal", "ball")
-
 
 if __name__ == "__main__":
     unittest.main()

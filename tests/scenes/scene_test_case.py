@@ -1,5 +1,5 @@
 """Shared by the tests of the scenes: tracing a scene of data/scenes with a tight tolerance, its eigenvalues at and between
-nodes, its special points, and the effects that were simulated."""
+nodes, and its special points."""
 
 import csv
 import io
@@ -61,21 +61,6 @@ class SceneTest(CommandTest):
             sorted_s = np.take_along_axis(found, order, axis=1)
             self.assertEqual(sorted_s.shape, expected.shape)
             self.assert_within(sorted_s, 1j * expected, relative)
-
-    def check_effects(self, *effects):
-        """`explain` names these effects and no others; the trace evaluates them and no others."""
-        text = self.scene_text()
-        self.write("effects.toml", text)
-        explained = self.run_well("explain", "effects.toml")
-        named, absent = explained[:explained.index("structure of")].split("absent, never evaluated: ")
-        active = re.findall(r"^ +(\w+) +\d+  ", named[named.index("effects"):], re.MULTILINE)
-        self.assertEqual(sorted(active), sorted(effects))
-        self.assertFalse(set(absent.strip().split(", ")) & set(effects))
-        summary = self.run_well("trace", "effects.toml", "-o", "effects.h5", "--force", "--verbose")
-        counted = re.search(r"^ +evaluations +(.*)$", summary, re.MULTILINE)[1]
-        counts = {name: int(count) for name, count in (entry.split() for entry in counted.split(", "))}
-        self.assertEqual(sorted(counts), sorted(effects))
-        self.assertTrue(all(counts.values()))
 
     def redundant(self, text=None):
         """Coordinates, constraints, redundant ones and freedoms that `explain` reports."""

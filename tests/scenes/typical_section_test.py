@@ -178,10 +178,6 @@ class TypicalSection(RotorTest):
             return upper(np.linalg.eigvals(system))
         self.assert_follows(file, roots, "V", np.linspace(5, 80, 20))
 
-    def test_effects(self):
-        self.check_effects("body", "directors", "prismatic", "revolute", "guided_spring", "torsional_spring", "strips",
-                           "lift_lag", "apparent_mass")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -120,9 +120,6 @@ class WhirlFlutter(RotorTest):
         equal = brentq(lambda k: np.max(companion(*self.propeller(k_pitch=k, k_yaw=k).matrices(100.0)).real), 2e5, 6e5)
         self.assertLess(np.max(np.minimum(pitch, yaw)), 1.0001 * equal)
 
-    def test_effects(self):
-        self.check_effects("body", "frame", "torsional_spring", "torsional_damper", "strips", "directors", "universal", "weld")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -106,12 +106,8 @@ TEST(StabilityMap, CellsOnABoundaryCountTheCalmerSide) {
 /// is traced, and cells count both.
 TEST(StabilityMap, CellsCountTheModesOfAllEqualParts) {
   const StabilityMap map = stability_map(map_setup(R"(
-[parameters]
-c = 0.1
-[trace]
-parameter = "p"
-from = 0.5
-to = 4
+parameters = { c = 0.1 }
+trace = { parameter = "p", from = 0.5, to = 4 }
 [matrix_family]
 M = [[[1, 0], [0, 1]]]
 C = [[["c", 0], [0, "c"]]]

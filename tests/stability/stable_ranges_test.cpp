@@ -274,25 +274,14 @@ TEST(StableRanges, AModeThatIsMissingOnAStepDoesNotDecayThere) {
 TEST(StableRanges, ManyRigidBodyModesEndATraceInNoTime) {
   // Two points in space joined by a spring have five rigid-body modes, which cannot be distinguished.
   // Following them through rounding errors took hours.
-  const TracedRanges traced = traced_ranges(make_setting(R"([parameters]
-k = 1
-[trace]
-parameter = "k"
-from = 1
-to = 3
-[[point]]
-name = "a"
-mass = 1
-position = [0, 0, 0]
-[[point]]
-name = "b"
-mass = 2
-position = [1, 0, 0]
-[[spring]]
-from = "a"
-to = "b"
-stiffness = "k"
-free_length = 1
+  const TracedRanges traced = traced_ranges(make_setting(R"(
+parameters = { k = 1 }
+trace = { parameter = "k", from = 1, to = 3 }
+point = [
+  { name = "a", mass = 1, position = [0, 0, 0] },
+  { name = "b", mass = 2, position = [1, 0, 0] },
+]
+spring = [{ from = "a", to = "b", stiffness = "k", free_length = 1 }]
 )"));
   EXPECT_EQ(traced.result.status, TraceStatus::completed) << traced.result.message;
   EXPECT_LT(traced.result.nodes, 50);

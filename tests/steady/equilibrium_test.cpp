@@ -80,18 +80,10 @@ INSTANTIATE_TEST_SUITE_P(Scales, EquilibriumUnits,
 
 /// Redundant and nearly parallel constraints.
 const std::string plain_pendulum = R"(
-[parameters]
-length = 1.5
-[trace]
-parameter = "length"
-from = 1
-to = 2
-[gravity]
-acceleration = [0, 0, -9.81]
-[[point]]
-name = "bob"
-mass = 2
-position = [0.1, 0, "-length"]
+parameters = { length = 1.5 }
+trace = { parameter = "length", from = 1, to = 2 }
+gravity = { acceleration = [0, 0, -9.81] }
+point = [{ name = "bob", mass = 2, position = [0.1, 0, "-length"] }]
 [[rod]]
 from = [0, 0, 0]
 to = "bob"

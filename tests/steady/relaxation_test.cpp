@@ -94,22 +94,11 @@ INSTANTIATE_TEST_SUITE_P(Spreads, PoorGuesses, testing::Values(0.5, 1.0, 2.0, 4.
 /// From a guess close to the upright equilibrium, relaxation leads to the hanging one.
 TEST(Relaxation, ComesToRestHanging) {
   const Setting setting = make_setting(R"(
-[parameters]
-g = 9.81
-[trace]
-parameter = "g"
-from = 9.81
-to = 5.0
-[gravity]
-acceleration = [0, 0, "-g"]
-[[point]]
-name = "bob"
-mass = 2.0
-position = [0.3, 0.1, 2.5]
-[[rod]]
-from = [0, 0, 0]
-to = "bob"
-length = 1.5
+parameters = { g = 9.81 }
+trace = { parameter = "g", from = 9.81, to = 5.0 }
+gravity = { acceleration = [0, 0, "-g"] }
+point = [{ name = "bob", mass = 2.0, position = [0.3, 0.1, 2.5] }]
+rod = [{ from = [0, 0, 0], to = "bob", length = 1.5 }]
 )");
   EvaluationCounts counts = setting.model->new_counts();
   const Vector parameters = setting.scene.parameters.declared_values();

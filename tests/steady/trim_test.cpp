@@ -161,29 +161,15 @@ TEST(Trim, HingeMomentOfAHeldJoint) {
 }
 
 const std::string wing = R"(
+trace = { parameter = "speed", from = 20, to = 60, tolerance = 1e-9 }
+body = [{ name = "wing", mass = 10, inertia = [1, 1, 1], position = [0, 0, 0] }]
+prismatic = [{ from = [0, 0, 0], to = "wing", axis = [0, 0, 1] }]
+spring = [{ from = [0, 0, 10], to = "wing", stiffness = 100, free_length = 10 }]
+trim = [{ unknown = "alpha", condition = "force(air, z) = weight" }]
 [parameters]
 speed = { value = 20.0, unit = "m/s" }
 alpha = { value = 0.01, unit = "rad" }
 weight = { value = 100, unit = "N" }
-[trace]
-parameter = "speed"
-from = 20
-to = 60
-tolerance = 1e-9
-[[body]]
-name = "wing"
-mass = 10
-inertia = [1, 1, 1]
-position = [0, 0, 0]
-[[prismatic]]
-from = [0, 0, 0]
-to = "wing"
-axis = [0, 0, 1]
-[[spring]]
-from = [0, 0, 10]
-to = "wing"
-stiffness = 100
-free_length = 10
 [[strips]]
 name = "air"
 on = "wing"
@@ -195,9 +181,6 @@ chord = 0.4
 lift_slope = 5.5
 wind = ["speed", 0, 0]
 density = 1.2
-[[trim]]
-unknown = "alpha"
-condition = "force(air, z) = weight"
 )";
 
 TEST(Trim, LiftOfStripsCarriesAWeight) {
@@ -265,28 +248,27 @@ TEST(Trim, SlopesOnAPlaneHaveTheConditionsInASparseSystem) {
 /// bodies moves, and so does the axis of the spring.
 TEST(Trim, DerivativesOfConditionsAgreeWithDifferences) {
   const Setting setting = make_setting(R"(
+trace = { parameter = "e", from = 1, to = 2 }
+frame = { angular_velocity = [0, 0, "e"] }
+body = [
+  { name = "first", mass = 1, inertia = [1, 2, 3], position = [1, 0, 0] },
+  { name = "second", mass = 1, inertia = [1, 2, 3], position = [2, 0, 0] },
+]
+torsional_spring = [{ joint = "middle", name = "spring", stiffness = 10, preload = "a" }]
+moment = [{ body = "second", along = [1, 2, 3], magnitude = "b" }]
+force = [{ point = "second", components = ["c", "c", "c"] }]
+trim = [
+  { unknown = "a", condition = "moment(spring) = b" },
+  { unknown = "b", condition = "moment(middle, x) = 3 * a" },
+  { unknown = "c", condition = "force(middle, y) = 2 * c" },
+  { unknown = "d", condition = "force(air, z) = c" },
+]
 [parameters]
 a = { value = 1.0, unit = "N m" }
 b = { value = 1.0, unit = "N m" }
 c = { value = 1.0, unit = "N" }
 d = { value = 0.1, unit = "rad" }
 e = { value = 1.0, unit = "rad/s" }
-[trace]
-parameter = "e"
-from = 1
-to = 2
-[frame]
-angular_velocity = [0, 0, "e"]
-[[body]]
-name = "first"
-mass = 1
-inertia = [1, 2, 3]
-position = [1, 0, 0]
-[[body]]
-name = "second"
-mass = 1
-inertia = [1, 2, 3]
-position = [2, 0, 0]
 [[revolute]]
 from = [0.5, 0, 0]
 to = { body = "first", at = [-0.5, 0, 0] }
@@ -297,18 +279,6 @@ name = "middle"
 from = { body = "first", at = [0.5, 0, 0] }
 to = { body = "second", at = [-0.5, 0, 0] }
 axis = [0, 1, 0]
-[[torsional_spring]]
-joint = "middle"
-name = "spring"
-stiffness = 10
-preload = "a"
-[[moment]]
-body = "second"
-along = [1, 2, 3]
-magnitude = "b"
-[[force]]
-point = "second"
-components = ["c", "c", "c"]
 [[strips]]
 name = "air"
 on = "second"
@@ -316,18 +286,6 @@ root = [-0.5, 0, 0]
 tip = [0.5, 0, 0]
 incidence = "d"
 chord = 0.2
-[[trim]]
-unknown = "a"
-condition = "moment(spring) = b"
-[[trim]]
-unknown = "b"
-condition = "moment(middle, x) = 3 * a"
-[[trim]]
-unknown = "c"
-condition = "force(middle, y) = 2 * c"
-[[trim]]
-unknown = "d"
-condition = "force(air, z) = c"
 )");
   const Model& model = *setting.model;
   EvaluationCounts counts = model.new_counts();

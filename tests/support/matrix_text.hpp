@@ -29,14 +29,17 @@ struct FamilyMatrices {
   std::vector<Matrix> M, C, K, A = {};
 };
 
-/// The scene of a matrix family, traced from one p to another.
+/// The scene of a matrix family, traced from one p to another. `matrices` are the lines "M = ...".
+inline std::string family_scene(const std::string& matrices, double from, double to) {
+  return "[trace]\nparameter = \"p\"\nfrom = " + exact_text(from) + "\nto = " + exact_text(to) +
+         "\n[matrix_family]\n" + matrices;
+}
 inline std::string family_scene(const FamilyMatrices& family, double from, double to) {
-  std::string scene = "[trace]\nparameter = \"p\"\nfrom = " + exact_text(from) + "\nto = " + exact_text(to) +
-                      "\n[matrix_family]\n";
+  std::string matrices;
   for (const auto& [key, coefficients] :
        {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"A", &family.A}})
-    if (!coefficients->empty()) scene += std::string(key) + " = " + text(*coefficients) + "\n";
-  return scene;
+    if (!coefficients->empty()) matrices += std::string(key) + " = " + text(*coefficients) + "\n";
+  return family_scene(matrices, from, to);
 }
 
 }  // namespace eigentrail::test

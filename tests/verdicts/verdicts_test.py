@@ -325,35 +325,16 @@ class OtherPaths(VerdictTest):
 
 
 SNAP_THROUGH = """
-[parameters]
-F = { value = 0, unit = "N" }
-k = { value = 0.25, unit = "N/m" }
-[trace]
-parameter = "F"
-from = -0.77
-to = 0.6
-[[point]]
-name = "m"
-mass = 1.0
-position = [0, 0, -0.5]
-[[fixed]]
-point = "m"
-coordinate = "x"
-[[fixed]]
-point = "m"
-coordinate = "y"
-[[spring]]
-from = [1, 0, 0]
-to = "m"
-stiffness = 1.0
-free_length = 1.25
-[[guided_spring]]
-point = "m"
-direction = [0, 0, 1]
-stiffness = "k"
-[[force]]
-point = "m"
-components = [0, 0, "F"]
+parameters = { F = { value = 0, unit = "N" }, k = { value = 0.25, unit = "N/m" } }
+trace = { parameter = "F", from = -0.77, to = 0.6 }
+point = [{ name = "m", mass = 1.0, position = [0, 0, -0.5] }]
+fixed = [
+  { point = "m", coordinate = "x" },
+  { point = "m", coordinate = "y" },
+]
+spring = [{ from = [1, 0, 0], to = "m", stiffness = 1.0, free_length = 1.25 }]
+guided_spring = [{ point = "m", direction = [0, 0, 1], stiffness = "k" }]
+force = [{ point = "m", components = [0, 0, "F"] }]
 """
 
 
