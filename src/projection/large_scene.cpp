@@ -4,7 +4,6 @@
 #include "core/products.hpp"
 #include "core/sparse_constraints.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/reduction/restricted_basis.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
 #include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"

@@ -12,7 +12,6 @@
 #include "steady/load_steps.hpp"
 #include "steady/redundancy.hpp"
 #include "steady/rounding.hpp"
-#include "steady/whole_newton_steps.hpp"
 
 namespace eigentrail {
 namespace {
