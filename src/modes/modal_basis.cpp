@@ -6,7 +6,7 @@
 #include "core/products.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "core/thin_product.hpp"
-#include "modes/pair_set.hpp"
+#include "eigentrail/modes/all_pairs.hpp"
 
 namespace eigentrail {
 namespace {

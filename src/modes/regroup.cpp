@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/orthonormal.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
-#include "modes/ordered_schur.hpp"
 
 namespace eigentrail {
 namespace {

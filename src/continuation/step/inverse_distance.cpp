@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modes/pair_set.hpp"
+#include "eigentrail/modes/all_pairs.hpp"
 
 namespace eigentrail {
 namespace {
