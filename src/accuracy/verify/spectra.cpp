@@ -5,7 +5,6 @@
 
 #include "accuracy/verify/comparisons.hpp"
 #include "accuracy/verify/spectrum_errors.hpp"
-#include "accuracy/verify/stored_scene.hpp"
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 
