@@ -16,12 +16,9 @@ constexpr Chart other(Chart chart) {
   return chart == Chart::finite ? Chart::reciprocal : Chart::finite;
 }
 
-/// Whether a coordinate has mass, by its column of M. Without, but with a column in C, it is of first order:
-/// its state space holds its value, and no velocity.
-std::vector<bool> has_mass(const Matrix& M);
-
 /// Number of finite eigenvalues if every coordinate without mass is of first order: n plus the number of
-/// coordinates with mass.
+/// coordinates with mass, which a column of M tells. Without, but with a column in C, a coordinate is of
+/// first order: its state space holds its value, and no velocity.
 Eigen::Index state_size(const Matrix& M);
 
 /// The matrix by which the highest derivatives are multiplied, n x n: the columns of `per_mass` M for
