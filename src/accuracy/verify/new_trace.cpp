@@ -10,8 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "accuracy/spectrum_distance.hpp"
 #include "accuracy/verify/comparisons.hpp"
-#include "accuracy/verify/spectrum_errors.hpp"
 #include "core/hdf5_file.hpp"
 #include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/core/text.hpp"
