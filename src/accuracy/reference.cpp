@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "accuracy/spectrum_distance.hpp"
 #include "core/connected_groups.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
@@ -199,8 +200,9 @@ struct Members {
 
   explicit Members(const Spectrum& spectrum) {
     for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
-      add(spectrum.modes[i].s, i);
-      if (spectrum.modes[i].s.imag() != 0.0) add(std::conj(spectrum.modes[i].s), i);
+      const std::vector<Complex> own = with_conjugates({spectrum.modes[i].s});
+      s.insert(s.end(), own.begin(), own.end());
+      mode.insert(mode.end(), own.size(), i);
     }
   }
 
@@ -216,12 +218,6 @@ struct Members {
     Complex sum = 0.0;
     for (const std::size_t i : group) sum += s[i];
     return sum / static_cast<double>(group.size());
-  }
-
- private:
-  void add(Complex value, std::size_t index) {
-    s.push_back(value);
-    mode.push_back(index);
   }
 };
 

@@ -21,7 +21,7 @@ constexpr double shortest_stride = 1e-4;
 constexpr int few_iterations = 12;
 
 /// A scene of bodies with constraints. Its vectors are kept by their parts that are allowed at the first
-/// place, the reference (reduction/restricted_basis.hpp).
+/// place, the reference (restricted_basis).
 class LargeScene final : public LargeModel {
  public:
   LargeScene(std::shared_ptr<const Model> scene, const TraceOptions& trace)

@@ -49,10 +49,6 @@ MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order
   return result;
 }
 
-MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
-  return project(basis, SystemSeries(B.begin(), B.end()), order);
-}
-
 namespace {
 
 /// The rows of the only entries of every column; empty if a column has not one entry.

@@ -20,6 +20,10 @@ MatrixSeries random_series(std::size_t length, Eigen::Index rows, Eigen::Index c
   return series;
 }
 
+MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order) {
+  return eigentrail::project(basis, SystemSeries(B.begin(), B.end()), order);
+}
+
 TEST(ReducedPencil, SeriesProductMatchesTheProductOfTheSeries) {
   const TangentBasis basis{random_series(5, 6, 3, 1), false};
   const MatrixSeries B = random_series(5, 6, 6, 2);

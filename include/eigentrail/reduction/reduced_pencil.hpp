@@ -24,10 +24,8 @@ struct ReducedPencil {
 };
 
 /// T^T B T as a power series up to h^order: coefficient k is the sum over i + j + l = k of T_i^T B_j T_l (Eq.
-/// 36 for k = 1). Trailing zero coefficients are not stored, so constants cost nothing beyond order 0.
-MatrixSeries project(const TangentBasis& basis, const MatrixSeries& B, int order);
-
-/// The same for coefficients that may be sparse; the product B T then costs O(n - rank) per nonzero of B.
+/// 36 for k = 1). Trailing zero coefficients are not stored, so constants cost nothing beyond order 0. For
+/// sparse coefficients the product B T costs O(n - rank) per nonzero of B.
 MatrixSeries project(const TangentBasis& basis, const SystemSeries& B, int order);
 
 /// Projects M, C and K of a linearization, up to h^order.
