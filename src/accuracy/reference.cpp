@@ -103,7 +103,7 @@ std::optional<ExtendedPencil> extended_pencil(const PathProblem& problem, const 
 }
 
 /// Eigenvalues that differ by less than this, relative to their magnitude, are refined together as one block.
-constexpr double close = 1e-3;
+constexpr double same_cluster = 1e-3;
 
 ExtendedComplexMatrix multiply(const ExtendedMatrix& B, const ExtendedComplexMatrix& Z) {
   const ExtendedMatrix real = B.lazyProduct(Z.real());
@@ -189,16 +189,16 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
 Groups clusters(const std::vector<Complex>& s, double reference) {
   return connected_groups(static_cast<Eigen::Index>(s.size()), [&](Eigen::Index i, Eigen::Index j) {
     const Complex a = s[static_cast<std::size_t>(i)], b = s[static_cast<std::size_t>(j)];
-    return std::abs(a - b) <= close * std::max({std::abs(a), std::abs(b), reference});
+    return std::abs(a - b) <= same_cluster * std::max({std::abs(a), std::abs(b), reference});
   });
 }
 
 /// The finite eigenvalues, with both members of complex pairs, and the index of the mode of each.
-struct Members {
+struct SpectrumMembers {
   std::vector<Complex> s;
   std::vector<std::size_t> mode;
 
-  explicit Members(const Spectrum& spectrum) {
+  explicit SpectrumMembers(const Spectrum& spectrum) {
     for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
       const std::vector<Complex> own = with_conjugates({spectrum.modes[i].s});
       s.insert(s.end(), own.begin(), own.end());
@@ -221,8 +221,9 @@ struct Members {
   }
 };
 
-InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectrum, const Members& members,
-                            const std::vector<std::size_t>& group, double reference) {
+InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectrum,
+                            const SpectrumMembers& members, const std::vector<std::size_t>& group,
+                            double reference) {
   const bool real = members.closed(group);
   const Complex mean = members.mean(group);
   if (group.size() > 1) {
@@ -251,7 +252,7 @@ void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpe
   if (spectrum.status != SpectrumStatus::complete) return;
   result.status = ReferenceStatus::not_converged;
   const PencilAtPoint at_point(pencil);
-  const Members members(spectrum);
+  const SpectrumMembers members(spectrum);
   ModeCounts counts;
   for (const auto& indices : clusters(members.s, reference)) {
     const std::vector<std::size_t> group(indices.begin(), indices.end());
