@@ -4,17 +4,106 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <span>
 
-#include "accuracy/extended_pencil.hpp"
+#include "accuracy/spectrum_distance.hpp"
 #include "core/connected_groups.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
 namespace {
 
+// The first two stages: the reduced pencil at one point with 113 bits.
+
+/// The pencil s^2 M + s C + K; all matrices are (n - rank A) x (n - rank A).
+struct ExtendedPencil {
+  ExtendedMatrix M, C, K;
+  double correction = 0.0;  ///< largest last correction of the equilibrium and the basis, relative
+};
+
+/// Calls correct(), which applies a correction and returns its relative size, until the size no longer halves
+/// or is at the rounding level of 113 bits (2^-113 = 1e-34). Returns the last size.
+template <class Correct>
+double refine_to_rounding(Correct&& correct) {
+  constexpr int most_corrections = 60;
+  constexpr double rounding = 1e-33;
+  double last = INFINITY;
+  for (int i = 0; i < most_corrections; ++i) {
+    const double size = correct();
+    if (!(size > rounding) || size > 0.5 * last) return size;
+    last = size;
+  }
+  return last;
+}
+
+using ExtendedPath = BasicPath<Extended>;
+
+double largest(const Vector& values) {
+  return values.size() == 0 ? 0.0 : values.lpNorm<Eigen::Infinity>();
+}
+
+double relative(double change, double whole) {
+  return whole > 0.0 ? change / whole : change;
+}
+
+/// Newton corrections of (x, lambda). The correction of the multipliers is measured by that of the reaction
+/// A^T lambda, because lambda itself is not unique if constraints are redundant. Returns the last relative
+/// correction; NaN if a residual cannot be evaluated.
+double refine_equilibrium(const Model& model, const Equilibrium& equilibrium, ExtendedPath& path) {
+  if (!equilibrium.kkt.can_solve()) return 0.0;  // the equilibrium is known exactly
+  const SystemMatrix& A = equilibrium.linearization.A[0];
+  const double length = largest(equilibrium.x);
+  // The scale of forces is the reaction, or stiffness times length if the constraints carry no load.
+  const Eigen::Index m = model.n_constraints();
+  const double force = std::max(largest(A.transposed_times(equilibrium.lambda.head(m))),
+                                equilibrium.linearization.K[0].largest_entry() * length);
+  return refine_to_rounding([&]() -> double {
+    BasicSteadyResidual<Extended> residual;
+    if (model.extended_residual(path, residual)) return NAN;
+    Vector dx, dl;
+    equilibrium.kkt.solve(-to_double(residual.force.col(0)), -to_double(residual.constraint.col(0)), dx, dl);
+    path.x.col(0) += dx.cast<Extended>();
+    path.lambda.col(0) += dl.cast<Extended>();
+    return std::max(relative(largest(dx), length), relative(largest(A.transposed_times(dl.head(m))), force));
+  });
+}
+
+/// Repeats T <- T - A+ (A T), with the pseudo-inverse A+, until A T vanishes within rounding of 113 bits. T
+/// is then a null-space basis that is orthonormal to double precision. Returns the last correction.
+double refine_basis(const ConstraintFactorization& constraints, const BasicSystemMatrix<Extended>& A,
+                    ExtendedMatrix& T) {
+  if (constraints.rank() == 0 || T.size() == 0) return 0.0;
+  return refine_to_rounding([&] {
+    const Matrix change = constraints.pseudo_inverse_times(to_double(A * T));
+    T -= change.cast<Extended>();
+    return change.cwiseAbs().maxCoeff();
+  });
+}
+
+/// Refines the equilibrium and the tangent basis of a point, and projects the linearization onto the basis.
+/// Empty if the model cannot be evaluated in extended precision or a correction is not finite.
+std::optional<ExtendedPencil> extended_pencil(const PathProblem& problem, const PathPoint& point) {
+  ExtendedPath path{parameters_at(problem, point.p).cast<Extended>(), point.equilibrium.x.cast<Extended>(),
+                    point.equilibrium.lambda.cast<Extended>()};
+  ExtendedPencil pencil;
+  const double moved = refine_equilibrium(problem.model, point.equilibrium, path);
+  BasicLinearization<Extended> full;
+  if (!std::isfinite(moved) || problem.model.extended_linearization(path, full)) return std::nullopt;
+  ExtendedMatrix T = point.basis.T[0].cast<Extended>();
+  const double turned = refine_basis(point.equilibrium.kkt.constraints(), full.A[0], T);
+  const auto projected = [&T](const BasicSystemMatrix<Extended>& B) {
+    return ExtendedMatrix((T.transpose() * B) * T);
+  };
+  pencil.M = projected(full.M[0]);
+  pencil.C = projected(full.C[0]);
+  pencil.K = projected(full.K[0]);
+  pencil.correction = std::max(moved, turned);
+  return pencil;
+}
+
 /// Eigenvalues that differ by less than this, relative to their magnitude, are refined together as one block.
-constexpr double close = 1e-3;
+constexpr double same_cluster = 1e-3;
 
 ExtendedComplexMatrix multiply(const ExtendedMatrix& B, const ExtendedComplexMatrix& Z) {
   const ExtendedMatrix real = B.lazyProduct(Z.real());
@@ -100,19 +189,20 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
 Groups clusters(const std::vector<Complex>& s, double reference) {
   return connected_groups(static_cast<Eigen::Index>(s.size()), [&](Eigen::Index i, Eigen::Index j) {
     const Complex a = s[static_cast<std::size_t>(i)], b = s[static_cast<std::size_t>(j)];
-    return std::abs(a - b) <= close * std::max({std::abs(a), std::abs(b), reference});
+    return std::abs(a - b) <= same_cluster * std::max({std::abs(a), std::abs(b), reference});
   });
 }
 
 /// The finite eigenvalues, with both members of complex pairs, and the index of the mode of each.
-struct Members {
+struct SpectrumMembers {
   std::vector<Complex> s;
   std::vector<std::size_t> mode;
 
-  explicit Members(const Spectrum& spectrum) {
+  explicit SpectrumMembers(const Spectrum& spectrum) {
     for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
-      add(spectrum.modes[i].s, i);
-      if (spectrum.modes[i].s.imag() != 0.0) add(std::conj(spectrum.modes[i].s), i);
+      const std::vector<Complex> own = with_conjugates({spectrum.modes[i].s});
+      s.insert(s.end(), own.begin(), own.end());
+      mode.insert(mode.end(), own.size(), i);
     }
   }
 
@@ -129,16 +219,11 @@ struct Members {
     for (const std::size_t i : group) sum += s[i];
     return sum / static_cast<double>(group.size());
   }
-
- private:
-  void add(Complex value, std::size_t index) {
-    s.push_back(value);
-    mode.push_back(index);
-  }
 };
 
-InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectrum, const Members& members,
-                            const std::vector<std::size_t>& group, double reference) {
+InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectrum,
+                            const SpectrumMembers& members, const std::vector<std::size_t>& group,
+                            double reference) {
   const bool real = members.closed(group);
   const Complex mean = members.mean(group);
   if (group.size() > 1) {
@@ -167,7 +252,7 @@ void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpe
   if (spectrum.status != SpectrumStatus::complete) return;
   result.status = ReferenceStatus::not_converged;
   const PencilAtPoint at_point(pencil);
-  const Members members(spectrum);
+  const SpectrumMembers members(spectrum);
   ModeCounts counts;
   for (const auto& indices : clusters(members.s, reference)) {
     const std::vector<std::size_t> group(indices.begin(), indices.end());

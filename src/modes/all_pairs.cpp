@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/thin_product.hpp"
-#include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {

@@ -99,10 +99,6 @@ Eigen::Matrix3d inertia(const MassCarrier& mass, const Moments& G, const Vector&
   return in_frame.trace() * Eigen::Matrix3d::Identity() - in_frame;
 }
 
-}  // namespace
-
-namespace {
-
 /// Rows: directions along a beam, of flap and of lag. Along is from its first node to its last one, and flap
 /// the mean of the z axes of its sections, as far as it is normal to that.
 Eigen::Matrix3d beam_axes(const std::vector<const MassCarrier*>& nodes, const Vector& x) {

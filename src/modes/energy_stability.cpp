@@ -20,7 +20,7 @@ bool is_definite(const Matrix& A, double shift) {
 }
 
 /// Rounding of an entry of a reduced matrix, and that of a Cholesky factor, relative to the diagonal.
-double rounding(Eigen::Index n) {
+double rounding_of_size(Eigen::Index n) {
   return 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
 }
 
@@ -30,7 +30,7 @@ bool is_semidefinite(const Matrix& A) {
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     if (!A.row(i).isZero(0.0) || !A.col(i).isZero(0.0)) rows.push_back(i);
   }
-  return rows.empty() || is_definite(A(rows, rows), rounding(A.rows()));
+  return rows.empty() || is_definite(A(rows, rows), rounding_of_size(A.rows()));
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ bool is_stable_by_energy(const ReducedPencil& pencil, const Structure& structure
     return std::all_of(pencil.parts.begin(), pencil.parts.end(),
                        [&](const ReducedPencil& part) { return is_stable_by_energy(part, structure); });
   const Matrix& K = pencil.K[0];
-  return is_definite(K, -rounding(K.rows())) && is_semidefinite(pencil.M[0]) &&
+  return is_definite(K, -rounding_of_size(K.rows())) && is_semidefinite(pencil.M[0]) &&
          (!structure.damped || is_semidefinite(pencil.C[0] + pencil.C[0].transpose()));
 }
 

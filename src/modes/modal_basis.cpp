@@ -6,7 +6,8 @@
 #include "core/products.hpp"
 #include "core/reciprocal_condition.hpp"
 #include "core/thin_product.hpp"
-#include "modes/pair_set.hpp"
+#include "eigentrail/modes/all_pairs.hpp"
+#include "modes/companion_form.hpp"
 
 namespace eigentrail {
 namespace {
@@ -27,14 +28,12 @@ std::optional<Matrix> inverse_of(const Matrix& A) {
 
 /// The inverse of the leading matrix of a pencil; empty if it is ill-conditioned with its columns of M scaled
 /// like velocities, by the frequency gamma.
-std::optional<Matrix> inverse_of_leading(const PencilAtPoint& pencil, const std::vector<bool>& with_mass,
-                                         double gamma) {
-  const bool all_have_mass = std::find(with_mass.begin(), with_mass.end(), false) == with_mass.end();
+std::optional<Matrix> inverse_of_leading(const PencilAtPoint& pencil,
+                                         const std::vector<Eigen::Index>& with_mass, double gamma) {
+  const bool all_have_mass = static_cast<Eigen::Index>(with_mass.size()) == pencil.size();
   const double per_mass = all_have_mass ? 1.0 : gamma;
   std::optional<Matrix> inverse = inverse_of(leading_matrix(pencil.M, pencil.C, per_mass));
-  for (std::size_t i = 0; inverse && !all_have_mass && i < with_mass.size(); ++i) {
-    if (with_mass[i]) inverse->row(static_cast<Eigen::Index>(i)) *= per_mass;
-  }
+  if (inverse && !all_have_mass) (*inverse)(with_mass, Eigen::all) *= per_mass;
   return inverse;
 }
 
@@ -77,11 +76,8 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
     for (Eigen::Index i = 0; i < place.size; ++i)
       basis.conjugate_[static_cast<std::size_t>(place.first + i)] = rows++;
   }
-  const std::vector<bool> with_mass = has_mass(pencil.M);
-  std::vector<Eigen::Index> velocities;  // coordinates whose velocities are states, too
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (with_mass[static_cast<std::size_t>(i)]) velocities.push_back(i);
-  }
+  // coordinates whose velocities are states, too
+  const std::vector<Eigen::Index> velocities = coordinates_with_mass(pencil.M);
   if (rows != n + static_cast<Eigen::Index>(velocities.size())) return std::nullopt;
 
   double gamma = 0.0;
@@ -111,20 +107,15 @@ std::optional<ModalBasis> ModalBasis::from(const PencilAtPoint& pencil, const Pa
     if (!place.is_real)
       basis.s_[static_cast<std::size_t>(basis.conjugate_[column])] = std::conj(basis.s_[column]);
   }
-  if (!leading_inverse) leading_inverse = inverse_of_leading(pencil, with_mass, gamma);
+  if (!leading_inverse) leading_inverse = inverse_of_leading(pencil, velocities, gamma);
   const Eigen::PartialPivLU<Matrix> lu(V);
   const double rcond = reciprocal_condition(lu);
   if (!(rcond > least_rcond) || !leading_inverse) return std::nullopt;
   basis.rounding_ = 10.0 * std::numeric_limits<double>::epsilon() / rcond;
   // A force changes the velocities of coordinates with mass, and the values of the others.
-  Matrix load = Matrix::Zero(rows, n);
-  for (Eigen::Index i = 0, velocity = n; i < n; ++i) {
-    if (with_mass[static_cast<std::size_t>(i)]) {
-      load.row(velocity++) = leading_inverse->row(i) / gamma;
-    } else {
-      load.row(i) = leading_inverse->row(i);
-    }
-  }
+  Matrix load(rows, n);
+  load << *leading_inverse, (*leading_inverse)(velocities, Eigen::all) / gamma;
+  load(velocities, Eigen::all).setZero();
   basis.left_ = lu.solve(load);
   basis.right_ = V.topRows(n);
   return basis;

@@ -1,10 +1,10 @@
 #include "eigentrail/modes/pencil_at_point.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/band_matrix.hpp"
 #include "core/products.hpp"
+#include "modes/companion_form.hpp"
 
 namespace eigentrail {
 namespace {
@@ -47,22 +47,14 @@ ComplexMatrix transposed_multiply(const Matrix& B, const ComplexMatrix& Z) {
   return B.rows() < large ? multiply_columns(B.transpose(), Z) : transposed_product(B, Z);
 }
 
-std::vector<bool> has_mass(const Matrix& M) {
-  std::vector<bool> result(static_cast<std::size_t>(M.cols()));
-  for (Eigen::Index j = 0; j < M.cols(); ++j) result[static_cast<std::size_t>(j)] = !M.col(j).isZero(0.0);
-  return result;
-}
-
 Eigen::Index state_size(const Matrix& M) {
-  const std::vector<bool> with_mass = has_mass(M);
-  return M.cols() + std::count(with_mass.begin(), with_mass.end(), true);
+  return M.cols() + static_cast<Eigen::Index>(coordinates_with_mass(M).size());
 }
 
 Matrix leading_matrix(const Matrix& M, const Matrix& C, double per_mass) {
   Matrix leading = per_mass * M;
-  const std::vector<bool> with_mass = has_mass(M);
   for (Eigen::Index j = 0; j < M.cols(); ++j) {
-    if (!with_mass[static_cast<std::size_t>(j)]) leading.col(j) = C.col(j);
+    if (M.col(j).isZero(0.0)) leading.col(j) = C.col(j);
   }
   return leading;
 }

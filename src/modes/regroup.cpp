@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/orthonormal.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
-#include "modes/ordered_schur.hpp"
 
 namespace eigentrail {
 namespace {
@@ -22,10 +22,7 @@ bool closed_under_conjugation(const ComplexVector& eigenvalues, const std::vecto
 }  // namespace
 
 InvariantPair with_conjugate(const InvariantPair& upper) {
-  InvariantPair pair;
-  pair.chart = upper.chart;
-  pair.part = upper.part;
-  pair.is_real = true;
+  InvariantPair pair{.chart = upper.chart, .part = upper.part, .is_real = true};
   const Eigen::Index n = upper.Z.rows();
   const Eigen::Index k = upper.size();
   ComplexMatrix Z = upper.Z;
@@ -64,13 +61,11 @@ InvariantPair join_pairs(const std::vector<const InvariantPair*>& parts, bool ma
     const bool expand = make_real && !part->is_real;
     blocks.push_back(expand ? with_conjugate(*part) : *part);
   }
-  InvariantPair joined;
-  joined.chart = parts.front()->chart;
-  joined.part = parts.front()->part;
-  joined.is_real = make_real;
+  const InvariantPair& first = *parts.front();
+  InvariantPair joined{.chart = first.chart, .part = first.part, .is_real = make_real};
   Eigen::Index k = 0;
   for (const InvariantPair& block : blocks) k += block.size();
-  joined.Z.resize(parts.front()->Z.rows(), k);
+  joined.Z.resize(first.Z.rows(), k);
   joined.Lambda = ComplexMatrix::Zero(k, k);
   Eigen::Index at = 0;
   for (const InvariantPair& block : blocks) {
@@ -94,13 +89,11 @@ InvariantPair part_of(const InvariantPair& pair, const ComplexVector& eigenvalue
   const OrderedSchur schur = ordered_schur(pair.Lambda, leading);
   const Eigen::Index k = pair.size();
   const auto size = static_cast<Eigen::Index>(part.size());
-  InvariantPair result;
-  result.chart = pair.chart;
-  result.part = pair.part;
-  result.is_real = pair.is_real && closed_under_conjugation(eigenvalues, part);
+  const bool is_real = pair.is_real && closed_under_conjugation(eigenvalues, part);
+  InvariantPair result{.chart = pair.chart, .part = pair.part, .is_real = is_real};
   ComplexMatrix basis = schur.U.leftCols(size);
   result.Lambda = schur.T.topLeftCorner(size, size);
-  if (result.is_real) {
+  if (is_real) {
     Matrix parts(k, 2 * size);
     parts << basis.real(), basis.imag();
     const Eigen::ColPivHouseholderQR<Matrix> qr(parts);

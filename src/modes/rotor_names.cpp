@@ -7,7 +7,6 @@
 
 #include "eigentrail/model/projection.hpp"
 #include "modes/ordinal.hpp"
-#include "modes/shaft_shapes.hpp"
 
 namespace eigentrail {
 namespace {

@@ -400,10 +400,8 @@ namespace {
 
 /// Both eigenvalues of a single freedom, without rounding where stiffness or damping is zero.
 InvariantPair pair_of_one_freedom(double m, double c, double k) {
-  InvariantPair pair;
-  pair.is_real = true;
-  pair.Z = ComplexMatrix::Identity(1, 2);
-  pair.Lambda = ComplexMatrix::Zero(2, 2);
+  InvariantPair pair{
+      .is_real = true, .Z = ComplexMatrix::Identity(1, 2), .Lambda = ComplexMatrix::Zero(2, 2)};
   pair.Lambda(0, 1) = 1.0;
   pair.Lambda(1, 0) = 0.0 - k / m;
   pair.Lambda(1, 1) = 0.0 - c / m;
@@ -435,9 +433,7 @@ InvariantPair subspace_of(const Values& M, const Values& C, const Values& K, Com
   for (int i = 0; i < iterations; ++i) {
     X = orthonormal(ComplexMatrix(lu.solve(ComplexMatrix(complex_b * X))));
   }
-  InvariantPair pair;
-  pair.is_real = is_real;
-  pair.Z = X.topRows(n);
+  InvariantPair pair{.is_real = is_real, .Z = X.topRows(n)};
   pair.Lambda = scaling.gamma * least_squares(complex_b * X, complex_a * X);
   if (is_real) {
     // A real pencil and a real shift give a real subspace; the QR basis of it is real.

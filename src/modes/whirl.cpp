@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "eigentrail/model/projection.hpp"
-#include "modes/shaft_shapes.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,10 +1,28 @@
 // The pencils of a sparse family at places, with their symmetry, and its projection.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "projection/nearest_modes.hpp"
-#include "projection/sparse_sum.hpp"
 
 namespace eigentrail {
+
+/// sum_i f_i A_i for varying factors f_i. The matrices must outlive it.
+class SparseSum {
+ public:
+  /// The matrices of the terms, n x n each, compressed.
+  SparseSum(const std::vector<AffineTerm<SparseMatrix>>& terms, Eigen::Index n);
+
+  /// The sum, with the pattern of all matrices together whatever the factors are, so that it is analyzed
+  /// once. One factor per matrix. Cost: the number of their nonzeros.
+  SparseMatrix with(std::span<const double> factors) const;
+
+ private:
+  const std::vector<AffineTerm<SparseMatrix>>& terms_;
+  Eigen::Index n_;
+  std::vector<int> starts_, rows_;  ///< of the columns of the sum; empty with less than two matrices
+};
 
 class FamilyPencils {
  public:

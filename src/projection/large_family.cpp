@@ -1,7 +1,6 @@
 #include "core/products.hpp"
 #include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
-#include "projection/two_spaces.hpp"
 
 namespace eigentrail {
 namespace {

@@ -4,7 +4,6 @@
 #include "core/products.hpp"
 #include "core/sparse_constraints.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/reduction/restricted_basis.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
 #include "projection/family_pencils.hpp"
 #include "projection/large_model.hpp"
@@ -22,7 +21,7 @@ constexpr double shortest_stride = 1e-4;
 constexpr int few_iterations = 12;
 
 /// A scene of bodies with constraints. Its vectors are kept by their parts that are allowed at the first
-/// place, the reference (reduction/restricted_basis.hpp).
+/// place, the reference (restricted_basis).
 class LargeScene final : public LargeModel {
  public:
   LargeScene(std::shared_ptr<const Model> scene, const TraceOptions& trace)

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "steady/sparse_kkt.hpp"
+
 namespace eigentrail {
 namespace {
 
@@ -49,21 +51,10 @@ template <class Scalar>
 Eigen::SparseMatrix<Scalar> bordered(Eigen::SparseMatrix<Scalar> P, const SparseMatrix& A) {
   P.makeCompressed();
   if (A.rows() == 0) return P;
-  const Eigen::Index n = P.rows();
   const double size = P.coeffs().cwiseAbs().maxCoeff();
-  const Vector norms = SystemMatrix(A).row_norms();
-  std::vector<Eigen::Triplet<Scalar>> entries;
-  entries.reserve(static_cast<std::size_t>(P.nonZeros() + 2 * A.nonZeros()));
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(P, j); entry; ++entry)
-      entries.emplace_back(entry.row(), j, entry.value());
-    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
-      const Scalar value = size / norms[entry.row()] * entry.value();
-      entries.emplace_back(n + entry.row(), j, value);
-      entries.emplace_back(j, n + entry.row(), value);
-    }
-  }
-  Eigen::SparseMatrix<Scalar> matrix(n + A.rows(), n + A.rows());
+  const Vector scale = SystemMatrix(A).row_norms().unaryExpr([size](double norm) { return size / norm; });
+  const std::vector<Eigen::Triplet<Scalar>> entries = kkt_entries(P, A, scale);
+  Eigen::SparseMatrix<Scalar> matrix(P.rows() + A.rows(), P.rows() + A.rows());
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }

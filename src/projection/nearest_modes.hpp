@@ -11,6 +11,9 @@
 
 namespace eigentrail {
 
+/// A few vectors side by side, n x k, stored row by row: a sparse matrix is read once for all of them.
+using RowBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// (M s^2 + C s + K) z + A^T mu = 0, A z = 0 at one place.
 struct SparsePencil {
   SparseMatrix M, C, K;    ///< n x n

@@ -30,16 +30,6 @@ Vector ProjectedScene::initial_guess(const Vector& parameters) const {
   return parameters == first_.parameters.col(0) ? Vector(first_.x.col(0)) : scene_->initial_guess(parameters);
 }
 
-EvaluationFault ProjectedScene::residual(const Path& path, int order, SteadyResidual& result,
-                                         EvaluationCounts& counts) const {
-  return scene_->residual(path, order, result, counts);
-}
-
-EvaluationFault ProjectedScene::linearize(const Path& path, int order, Linearization& result,
-                                          EvaluationCounts& counts) const {
-  return scene_->linearize(path, order, result, counts);
-}
-
 std::vector<ParameterValues> lines_over(const TraceOptions& trace, const std::string& second, double from,
                                         double to) {
   constexpr int count = 5;

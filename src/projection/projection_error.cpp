@@ -6,7 +6,6 @@
 
 #include "core/products.hpp"
 #include "eigentrail/core/complex_lu.hpp"
-#include "projection/row_block.hpp"
 
 namespace eigentrail {
 

@@ -1,20 +1,30 @@
 #include "eigentrail/reduction/independent_parts.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/diagonal_blocks.hpp"
 #include "core/products.hpp"
 #include "reduction/balance.hpp"
-#include "reduction/free_motions.hpp"
 #include "reduction/part_copies.hpp"
 #include "reduction/separated_basis.hpp"
 #include "reduction/splitting.hpp"
 
 namespace eigentrail {
 namespace {
+
+/// The least squared cosine between the tangent space and the frame: that of 80 degrees. Closer to a right
+/// angle rounding would be magnified by more than six, and a motion of the frame could have no counterpart.
+constexpr double least_cosine_squared = 0.03;
+
+/// Entries of a projected orthonormal basis up to which they are rounding. Without them what the constraints
+/// keep apart stays apart, and blocks of it are orthonormalized each by itself.
+constexpr double negligible_entry = 1e-13;
 
 /// Scaling is left out if all factors lie within this ratio: it would change only rounding.
 constexpr double well_scaled = 64.0;
@@ -106,17 +116,84 @@ std::vector<Matrix> projected(const std::vector<Matrix>& matrices, const Matrix&
   return result;
 }
 
+/// Changes the coordinates of all parts and of their copies.
+template <class Change>
+void change_all(IndependentParts& parts, const Change& change) {
+  change(parts.right, parts.left, parts.inverse);
+  for (IndependentParts::Range& range : parts.ranges) {
+    for (PartCopy& copy : range.copies) change(copy.right, copy.left, copy.inverse);
+  }
+}
+
 /// Parts of matrices T^T A T as parts of the whole: T times their coordinates.
 void place_in(const Matrix& T, IndependentParts& parts) {
-  const auto place = [&T](Matrix& right, Matrix& left, Matrix& inverse) {
+  change_all(parts, [&T](Matrix& right, Matrix& left, Matrix& inverse) {
     right = T * right;
     left = T * left;
     inverse = inverse * T.transpose();
-  };
-  place(parts.right, parts.left, parts.inverse);
-  for (IndependentParts::Range& range : parts.ranges) {
-    for (PartCopy& copy : range.copies) place(copy.right, copy.left, copy.inverse);
+  });
+}
+
+/// Indices of the coordinates of free motions.
+std::vector<Eigen::Index> free_motions(const IndependentParts& parts) {
+  std::vector<Eigen::Index> result;
+  for (const IndependentParts::Range& range : parts.ranges) {
+    const Eigen::Index i = range.first;
+    if (parts.is_free(range) && parts.pattern_C(i, i) == 0.0) result.push_back(i);
   }
+  return result;
+}
+
+/// The factor R with which S R has the unit matrix in some of its rows, in their order.
+Matrix to_echelon(const Matrix& S) {
+  const Eigen::ColPivHouseholderQR<Matrix> qr(S.transpose());
+  const auto& pivots = qr.colsPermutation().indices();
+  std::vector<Eigen::Index> rows(pivots.begin(), pivots.begin() + S.cols());
+  std::sort(rows.begin(), rows.end());
+  return Matrix(S(rows, Eigen::all)).inverse();
+}
+
+/// The factor R, upper triangular, with which R^T mass R is diagonal. The first columns keep their direction.
+Matrix to_independent(const Matrix& mass) {
+  const Matrix upper = Eigen::LLT<Matrix>(mass).matrixU();
+  return upper.inverse() * upper.diagonal().asDiagonal();
+}
+
+bool is_diagonal(const Matrix& mass) {
+  constexpr double rounding = 1e-13;
+  const Matrix rest = mass - Matrix(mass.diagonal().asDiagonal());
+  return rest.norm() <= rounding * mass.norm();
+}
+
+/// Columns scaled by powers of two to a mass of about `mean`.
+Matrix scaled(const Matrix& S, const Matrix& mass, double mean) {
+  const auto factor = [mean](double m) { return std::exp2(std::round(0.5 * std::log2(mean / m))); };
+  return S * mass.diagonal().unaryExpr(factor).asDiagonal();
+}
+
+/// Free motions are those that no force holds or damps: freedoms with mass only, such as those of a body in
+/// space.
+/// Replaces the coordinates of the free motions among the parts, which are arbitrary where there are several,
+/// by simple ones: each moves as few coordinates of the system as possible, and they stay independent in
+/// mass. Nothing is changed where that is impossible. `masses`: all M of the system, n x n.
+void simplify_free_motions(const std::vector<Matrix>& masses, IndependentParts& parts) {
+  const std::vector<Eigen::Index> free = free_motions(parts);
+  if (free.size() < 2 || masses.empty()) return;
+  const Matrix before = parts.right(Eigen::all, free);
+  if (parts.left(Eigen::all, free) != before) return;  // equations without a potential
+  const auto mass_of = [](const Matrix& S, const Matrix& M) { return Matrix(S.transpose() * M * S); };
+  const double mean = mass_of(before, masses[0]).diagonal().mean();
+  Matrix S = before * to_echelon(before);
+  S = S * to_independent(mass_of(S, masses[0]));
+  S = scaled(S, mass_of(S, masses[0]), mean);
+  const bool independent = S.allFinite() && std::all_of(masses.begin(), masses.end(), [&](const Matrix& M) {
+                             return is_diagonal(mass_of(S, M));
+                           });
+  if (!independent) return;
+  const Matrix change = before.colPivHouseholderQr().solve(S);  // S = before * change
+  parts.inverse(free, Eigen::all) = change.inverse() * Matrix(parts.inverse(free, Eigen::all));
+  parts.right(Eigen::all, free) = S;
+  parts.left(Eigen::all, free) = S;
 }
 
 /// The frames at all places that are closest to the tangent space of one of them; empty if there is a place
@@ -187,6 +264,34 @@ std::shared_ptr<const IndependentParts> find_turning_parts(const std::vector<Pla
   place_in(frames.back(), *within);
   within->frame = frames.back();
   return within;
+}
+
+std::optional<Matrix> turned_frame(const ConstraintFactorization& constraints, const Matrix& frame) {
+  if (constraints.rank() + frame.cols() != frame.rows()) return std::nullopt;
+  Matrix T = constraints.allowed_part(frame);
+  T = (T.array().abs() > negligible_entry).select(T, 0.0).eval();
+  for (const DiagonalBlock& block : diagonal_blocks(MatrixSeries{T})) {
+    const Matrix P = T(block.rows, block.columns);
+    const Eigen::SelfAdjointEigenSolver<Matrix> gram(transposed_product(P, P));
+    if (gram.info() != Eigen::Success || !(gram.eigenvalues()[0] > least_cosine_squared)) return std::nullopt;
+    T(block.rows, block.columns) = product(P, Matrix(gram.operatorInverseSqrt()));
+  }
+  return T;
+}
+
+std::shared_ptr<const IndependentParts> turned(const std::shared_ptr<const IndependentParts>& parts,
+                                               const ConstraintFactorization& constraints) {
+  if (parts->frame.size() == 0) return parts;
+  std::optional<Matrix> T = turned_frame(constraints, parts->frame);
+  if (!T) return nullptr;
+  auto there = std::make_shared<IndependentParts>(*parts);
+  change_all(*there, [&](Matrix& right, Matrix& left, Matrix& inverse) {
+    right = *T * (parts->frame.transpose() * right);
+    left = *T * (parts->frame.transpose() * left);
+    inverse = (inverse * parts->frame) * T->transpose();
+  });
+  there->frame = std::move(*T);
+  return there;
 }
 
 }  // namespace eigentrail

@@ -7,7 +7,7 @@
 
 #include "core/matrix_series.hpp"
 #include "eigentrail/modes/invariants.hpp"
-#include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {
 namespace {

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "core/positive_or_one.hpp"
+#include "core/texts.hpp"
 #include "eigentrail/steady/relaxation.hpp"
 #include "steady/load_steps.hpp"
 #include "steady/redundancy.hpp"
 #include "steady/rounding.hpp"
-#include "steady/whole_newton_steps.hpp"
 
 namespace eigentrail {
 namespace {
@@ -316,19 +316,18 @@ std::string failure_message(const NonlinearResult& kinsol, const SteadyReport& r
 std::string undetermined_trim(const Model& model, const KktFactorization& kkt) {
   constexpr double takes_part = 1e-6;
   const Matrix shares = kkt.undetermined();
-  std::string unknowns, conditions;
+  std::vector<std::string> unknowns, conditions;
   for (Eigen::Index i = 0; i < shares.cols(); ++i) {
     const Trim& trim = model.description().trims[static_cast<std::size_t>(i)];
-    const auto append = [](std::string& list, const std::string& name) {
-      list += (list.empty() ? "'" : ", '") + name + "'";
-    };
+    const auto& names = model.description().parameters.names();
     if (shares(0, i) > takes_part)
-      append(unknowns, model.description().parameters.names()[static_cast<std::size_t>(trim.parameter)]);
-    if (shares(1, i) > takes_part) append(conditions, trim.condition);
+      unknowns.push_back("'" + names[static_cast<std::size_t>(trim.parameter)] + "'");
+    if (shares(1, i) > takes_part) conditions.push_back("'" + trim.condition + "'");
   }
   if (unknowns.empty() && conditions.empty()) return {};
-  return "the trim is singular: " + (conditions.empty() ? "the equilibrium" : "the condition " + conditions) +
-         " does not change with " + (unknowns.empty() ? "the unknowns" : "the unknown " + unknowns) +
+  return "the trim is singular: " +
+         (conditions.empty() ? "the equilibrium" : "the condition " + joined(conditions)) +
+         " does not change with " + (unknowns.empty() ? "the unknowns" : "the unknown " + joined(unknowns)) +
          "; state conditions that depend on the unknowns, and hold all other freedoms";
 }
 

@@ -194,10 +194,6 @@ EvaluationFault parameter_load(const Model& model, const Path& point, int traced
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether a basis spans only a part of the motions that the constraints allow, as in a projected scene.
 bool spans_a_part(const Matrix& tangent_basis, const Linearization& linearization) {
   const SystemMatrix &K = linearization.K[0], &A = linearization.A[0];

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/singular_vectors.hpp"
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -95,10 +96,7 @@ std::string undetermined_stiffness(const Model& model, const Vector& parameters,
   if (model.description().shares_reactions) return {};
   const std::vector<std::string> names = undetermined_reactions(model, parameters, at, counts);
   if (names.empty()) return {};
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return "the reactions of " + list +
+  return "the reactions of " + enumerated(names) +
          " are not unique, and the stiffness depends on them: these constraints say the same at this "
          "configuration, but not beside it; leave one out, put a spring in its place, or let all share the "
          "load with reactions = \"least squares\" above the first table of the scene";

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <vector>
 
 #include "core/positive_or_one.hpp"
 
@@ -16,25 +15,6 @@ constexpr int power_iterations = 4;
 /// Iterations for the kernel of a system that is singular up to rounding: each multiplies what else there is
 /// by the ratio of the two smallest singular values.
 constexpr int kernel_iterations = 3;
-
-using KktEntries = std::vector<Eigen::Triplet<double>>;
-
-/// Entries of [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`, m.
-KktEntries kkt_entries(const SparseMatrix& K, const SparseMatrix& A, const Vector& row_scale) {
-  const Eigen::Index n = K.rows();
-  KktEntries entries;
-  entries.reserve(static_cast<std::size_t>(K.nonZeros() + 2 * A.nonZeros()));
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry)
-      entries.emplace_back(entry.row(), j, entry.value());
-    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
-      const double value = row_scale[entry.row()] * entry.value();
-      entries.emplace_back(n + entry.row(), j, value);
-      entries.emplace_back(j, n + entry.row(), value);
-    }
-  }
-  return entries;
-}
 
 double largest(const Vector& entries) {
   return entries.size() > 0 ? entries.lpNorm<Eigen::Infinity>() : 0.0;
@@ -75,7 +55,7 @@ SparseKkt::SparseKkt(const SparseMatrix& K, const SparseMatrix& A, const KktBord
   columns_.resize(q);
   if (m_ > 0) rows_.segment(n_, m_) = SystemMatrix(A).row_norms().unaryExpr(inverse);
   const Vector reactions = rows_.segment(n_, m_);
-  KktEntries entries = kkt_entries(K, A, reactions);
+  std::vector<Eigen::Triplet<double>> entries = kkt_entries(K, A, reactions);
   Matrix corner = border.unknown;
   for (Eigen::Index k = 0; k < q; ++k) {
     Vector column(n_ + m_);

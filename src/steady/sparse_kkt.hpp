@@ -8,11 +8,31 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/sparse_factors.hpp"
 #include "steady/bordered_kkt.hpp"
 
 namespace eigentrail {
+
+/// Entries of [K, (D A)^T; D A, 0], where D is the diagonal matrix of `row_scale`, m.
+template <class Scalar>
+std::vector<Eigen::Triplet<Scalar>> kkt_entries(const Eigen::SparseMatrix<Scalar>& K, const SparseMatrix& A,
+                                                const Vector& row_scale) {
+  const Eigen::Index n = K.rows();
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  entries.reserve(static_cast<std::size_t>(K.nonZeros() + 2 * A.nonZeros()));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(K, j); entry; ++entry)
+      entries.emplace_back(entry.row(), j, entry.value());
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      const Scalar value = row_scale[entry.row()] * entry.value();
+      entries.emplace_back(n + entry.row(), j, value);
+      entries.emplace_back(j, n + entry.row(), value);
+    }
+  }
+  return entries;
+}
 
 /// Unit vectors, n, that are nearest to the right and the left kernel of [K, A^T; A, 0].
 struct KktKernel {

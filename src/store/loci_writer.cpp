@@ -11,7 +11,7 @@
 #include "core/texts.hpp"
 #include "eigentrail/continuation/trace.hpp"
 #include "eigentrail/core/errors.hpp"
-#include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/whirl.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
 #include "store/labelled_datasets.hpp"

@@ -1,5 +1,5 @@
 // Names of motions: velocities, and waves in multiblade coordinates.
-#include "eigentrail/modes/motion_names.hpp"
+#include "eigentrail/modes/participation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/modes/matching.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Projections on a space of right vectors and one of left vectors.
-#include "projection/two_spaces.hpp"
+#include "projection/projection_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Motions of a projected scene, lifted to where its constraints have turned.
-#include "eigentrail/reduction/restricted_basis.hpp"
+#include "eigentrail/reduction/tangent_basis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include "eigentrail/steady/equilibrium.hpp"
 #include "steady/heavy_elastica.hpp"
 #include "steady/scalar_problem.hpp"
-#include "steady/whole_newton_steps.hpp"
 
 namespace eigentrail::test::load_steps_test {
 namespace {

@@ -16,6 +16,14 @@
 
 namespace eigentrail {
 
+struct OrderedSchur {
+  ComplexMatrix T, U;  ///< Lambda = U T U^H, T upper triangular
+};
+
+/// Schur form in which the eigenvalues of `Lambda` nearest to `leading` come first on the diagonal, in the
+/// order of `leading` (Golub & Van Loan 2013, Sect. 7.6.2).
+OrderedSchur ordered_schur(const ComplexMatrix& Lambda, const std::vector<Complex>& leading);
+
 /// Coefficients of the matrix series of a part of `Lambda` (k x k coefficients): the part has the eigenvalues
 /// `part` at h = 0. Returns an empty vector if they cannot be separated from the other eigenvalues (distance
 /// at most 1e-13 |Lambda|). Accurate as long as the part as a whole is well separated from the rest, even if

@@ -8,7 +8,7 @@
 // sections.
 //
 // Blades of a rotor in multiblade coordinates move together in waves. The two waves of a harmonic are taken
-// apart: one turns with the rotor and one against it, as the frame that stands sees them (motion_names.hpp).
+// apart: one turns with the rotor and one against it, as the frame that stands sees them (participation.hpp).
 #pragma once
 
 #include <array>

@@ -142,15 +142,15 @@ struct InvariantPair {
   Chart chart = Chart::finite;
   int part = 0;          ///< of the reduced equations, where they fall apart (ReducedPencil::of)
   bool is_real = false;  ///< real Z and Lambda; the eigenvalues of the block are closed under conjugation
-  ComplexMatrix Z;       ///< n x k
-  ComplexMatrix Lambda;  ///< k x k
-  ComplexMatrix W;       ///< 2n x k, normalization
+  ComplexMatrix Z = {};  ///< n x k
+  ComplexMatrix Lambda = {};    ///< k x k
+  ComplexMatrix W = {};         ///< 2n x k, normalization
   double backward_error = 0.0;  ///< |residual| / (magnitude |Z|), see PencilAtPoint::magnitude
   double condition = 0.0;  ///< relative condition number of the block, with respect to max(|mu|, reference)
   /// Bound of the change of Lambda where every entry of the matrices changes by a rounding error of 2.2e-16
   /// of its magnitude: eps |y|^T (|mu|^2 |M| + |mu| |C| + |K|) |z| / |y^H P' z| for one mode.
   double rounding = 0.0;
-  std::shared_ptr<const PairFactorization> factors;  ///< null if the pair was not corrected by itself
+  std::shared_ptr<const PairFactorization> factors = {};  ///< null if the pair was not corrected by itself
 
   Eigen::Index size() const { return Lambda.rows(); }
   /// The eigenvalue (s, or 1/s in the reciprocal chart) of a block of one mode.

@@ -1,9 +1,9 @@
 // The quadratic pencil at one point of the path, in the form that the correctors use.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "eigentrail/modes/pencil_bands.hpp"
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 namespace eigentrail {
@@ -16,17 +16,25 @@ constexpr Chart other(Chart chart) {
   return chart == Chart::finite ? Chart::reciprocal : Chart::finite;
 }
 
-/// Whether a coordinate has mass, by its column of M. Without, but with a column in C, it is of first order:
-/// its state space holds its value, and no velocity.
-std::vector<bool> has_mass(const Matrix& M);
-
 /// Number of finite eigenvalues if every coordinate without mass is of first order: n plus the number of
-/// coordinates with mass.
+/// coordinates with mass, which a column of M tells. Without, but with a column in C, a coordinate is of
+/// first order: its state space holds its value, and no velocity.
 Eigen::Index state_size(const Matrix& M);
 
 /// The matrix by which the highest derivatives are multiplied, n x n: the columns of `per_mass` M for
 /// coordinates with mass, those of C for the others.
 Matrix leading_matrix(const Matrix& M, const Matrix& C, double per_mass = 1.0);
+
+/// M, C and K, n x n, of which the entries further than `width` from the diagonal are zero: A(i, j) in row
+/// width + i - j and column j, (2 width + 1) x n. Null where they are not known to be banded. Copies share
+/// them.
+struct PencilBands {
+  std::shared_ptr<const Matrix> M, C, K;
+
+  explicit operator bool() const { return M != nullptr; }
+  /// a M + b C + c K in the same storage.
+  ComplexMatrix sum(Complex a, Complex b, double c) const;
+};
 
 /// mu^2 M + mu C + K at one point, with M and K exchanged in the reciprocal chart; mu is s or 1/s.
 struct PencilAtPoint {

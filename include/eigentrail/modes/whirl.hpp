@@ -5,8 +5,10 @@
 // negative where it goes round backward.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "eigentrail/model/model.hpp"
 
@@ -33,5 +35,10 @@ Whirl whirl_of(const Model& model, const Vector& parameters, const ComplexVector
 /// "forward", "backward", "mixed" if nodes differ, or "" where nothing is clear: orbits that are nearly
 /// lines.
 std::string whirl_in_words(const Whirl& whirl);
+
+/// Displacements x and y of each node; zero where it is held. `shape`: coordinates of the model, also of one
+/// that is the projection of a rotor.
+std::vector<std::array<Complex, 2>> displacements(const Model& model, const SpinningShaft& shaft,
+                                                  const ComplexVector& shape);
 
 }  // namespace eigentrail

@@ -71,9 +71,13 @@ class ProjectedScene final : public Model, public Projected {
   Vector initial_guess(const Vector& parameters) const override;
   Structure structure(int traced_parameter) const override { return scene_->structure(traced_parameter); }
   EvaluationFault residual(const Path& path, int order, SteadyResidual& result,
-                           EvaluationCounts& counts) const override;
+                           EvaluationCounts& counts) const override {
+    return scene_->residual(path, order, result, counts);
+  }
   EvaluationFault linearize(const Path& path, int order, Linearization& result,
-                            EvaluationCounts& counts) const override;
+                            EvaluationCounts& counts) const override {
+    return scene_->linearize(path, order, result, counts);
+  }
   std::vector<Expression> expressions() const override { return scene_->expressions(); }
   std::vector<double> kinks(int traced_parameter) const override { return scene_->kinks(traced_parameter); }
   EvaluationFault extended_residual(const BasicPath<Extended>& path,

@@ -40,4 +40,12 @@ CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup);
 /// "1 point", "3 points".
 std::string count_text(std::size_t count, const std::string& what);
 
+/// The file with the matrices of a scene, or the first table of a rotor, as the scene names it; empty if they
+/// stand in the scene.
+std::string file_of_matrices(const Scene& scene);
+
+/// The scene and the options of the trace in the file. Matrices in a file of their own are read again. Throws
+/// InputError if the stored text does not give the model of the stored points.
+TraceSetup setup_of(const LociFile& loci);
+
 }  // namespace eigentrail

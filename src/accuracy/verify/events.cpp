@@ -4,7 +4,6 @@
 
 #include "accuracy/spectrum_distance.hpp"
 #include "accuracy/verify/comparisons.hpp"
-#include "accuracy/verify/spectrum_errors.hpp"
 #include "continuation/events/criterion.hpp"
 #include "core/texts.hpp"
 #include "eigentrail/continuation/event_kinds.hpp"

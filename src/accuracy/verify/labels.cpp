@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/spectrum_distance.hpp"
 #include "accuracy/verify/comparisons.hpp"
-#include "accuracy/verify/spectrum_errors.hpp"
 
 namespace eigentrail {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "accuracy/verify/comparisons.hpp"
 #include "eigentrail/core/complex_lu.hpp"
-#include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {
 namespace {

@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <random>
 
+#include "accuracy/spectrum_distance.hpp"
 #include "accuracy/verify/comparisons.hpp"
-#include "accuracy/verify/spectrum_errors.hpp"
-#include "accuracy/verify/stored_scene.hpp"
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
+#include "accuracy/spectrum_distance.hpp"
 #include "accuracy/verify/comparisons.hpp"
-#include "accuracy/verify/spectrum_errors.hpp"
 #include "core/texts.hpp"
 #include "eigentrail/stability/permanent_modes.hpp"
 

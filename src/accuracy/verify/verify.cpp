@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "accuracy/verify/comparisons.hpp"
-#include "accuracy/verify/stored_scene.hpp"
 #include "eigentrail/core/errors.hpp"
 
 namespace eigentrail {

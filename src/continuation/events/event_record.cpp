@@ -7,7 +7,7 @@
 #include "continuation/tracks/members.hpp"
 #include "core/matrix_series.hpp"
 #include "eigentrail/modes/block_parts.hpp"
-#include "eigentrail/modes/normalization.hpp"
+#include "eigentrail/modes/matching.hpp"
 
 namespace eigentrail {
 namespace {

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "eigentrail/continuation/point_modes.hpp"
-#include "eigentrail/reduction/restricted_basis.hpp"
 #include "reduction/part_copies.hpp"
 #include "steady/redundancy.hpp"
 

@@ -8,7 +8,6 @@
 #include "continuation/step/modal_bounds.hpp"
 #include "continuation/step/shared_basis.hpp"
 #include "core/matrix_series.hpp"
-#include "modes/pair_set.hpp"
 
 namespace eigentrail {
 namespace {

@@ -1,9 +1,95 @@
+#include "accuracy/grid_loci.hpp"
+
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
-#include "accuracy/grid_loci.hpp"
+#include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
+namespace {
+
+/// The whole spectrum at a point, with both members of complex pairs.
+struct GridPoint {
+  ComplexVector s;
+  ComplexMatrix shapes;  ///< columns: mode shapes in physical coordinates, v = T z
+  SystemMatrix mass;     ///< mass matrix, the weight of the modal assurance criterion
+};
+
+/// Number of eigenvalues of the first `count` modes, both members of complex pairs counted.
+Eigen::Index n_members(const Spectrum& spectrum, std::size_t count) {
+  const auto complex = std::count_if(spectrum.modes.begin(), spectrum.modes.begin() + count,
+                                     [](const StartingMode& mode) { return mode.s.imag() != 0.0; });
+  return static_cast<Eigen::Index>(count) + complex;
+}
+
+GridPoint members_of(const Spectrum& spectrum, const PathPoint& point) {
+  const Eigen::Index count = n_members(spectrum, spectrum.modes.size());
+  GridPoint result{ComplexVector(count), ComplexMatrix(point.basis.T[0].rows(), count),
+                   point.equilibrium.linearization.M[0]};
+  Eigen::Index at = 0;
+  for (const StartingMode& mode : spectrum.modes) {
+    const ComplexVector v = point.basis.T[0].cast<Complex>() * mode.z;
+    result.s[at] = mode.s;
+    result.shapes.col(at++) = v;
+    if (mode.s.imag() == 0.0) continue;
+    result.s[at] = std::conj(mode.s);
+    result.shapes.col(at++) = v.conjugate();
+  }
+  return result;
+}
+
+/// Cost of matching modes: 1 - MAC, with the modal assurance criterion MAC. An eigenvalue above the real axis
+/// is not matched with one below: the conjugate of backward whirl has the same shape as forward whirl.
+Matrix disagreement(const GridPoint& last, const GridPoint& next) {
+  Matrix cost = 1.0 - modal_assurance(last.shapes, next.shapes, next.mass).array();
+  for (Eigen::Index i = 0; i < cost.rows(); ++i) {
+    for (Eigen::Index j = 0; j < cost.cols(); ++j) {
+      if (last.s[i].imag() * next.s[j].imag() < 0.0) cost(i, j) += 10.0;  // 1 - MAC is at most 1
+      if (!std::isfinite(cost(i, j))) cost(i, j) = 1.0;
+    }
+  }
+  return cost;
+}
+
+/// The point `next` with its modes in the order of those of `last`.
+GridPoint in_order(const GridPoint& last, const GridPoint& next) {
+  const std::vector<int> successor = optimal_assignment(disagreement(last, next));
+  return {next.s(successor), next.shapes(Eigen::all, successor), next.mass};
+}
+
+}  // namespace
+
+GridLoci qz_grid(const PathProblem& problem, const std::vector<double>& p, const ModeChoice& modes) {
+  GridLoci loci;
+  Eigen::Index followed = 0;
+  loci.both_members = true;
+  EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p.front())), {}, false};
+  GridPoint last;
+  for (const double value : p) {
+    const PathPoint point = reduce_at(problem, value, guess, Matrix(), loci.counts);
+    loci.message = point.message;
+    if (point.status != PointStatus::computed) return loci;
+    guess = {point.equilibrium.x, point.equilibrium.lambda, true};
+    Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
+    ++loci.counts.spectra;
+    loci.message = "QZ did not yield a spectrum";
+    if (spectrum.status != SpectrumStatus::complete) return loci;
+    if (loci.p.empty())  // the chosen modes come first
+      followed = n_members(spectrum, static_cast<std::size_t>(choose_modes(modes, spectrum.modes)));
+    GridPoint next = members_of(spectrum, point);
+    loci.message = "the number of finite eigenvalues changes";
+    if (!loci.p.empty() && next.s.size() != last.s.size()) return loci;
+    last = loci.p.empty() ? std::move(next) : in_order(last, next);
+    loci.p.push_back(value);
+    loci.s.emplace_back(last.s.head(followed));
+  }
+  loci.message.clear();
+  loci.completed = true;
+  return loci;
+}
+
 namespace {
 
 /// The followed modes, Z in physical coordinates.
