@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace eigentrail {
-namespace {
 
 // Rules for power series whose coefficients are packs of numbers, one for each element (Griewank & Walther,
 // Evaluating Derivatives, 2nd ed., Table 13.2). A series that does not vary along the path has one
@@ -86,8 +85,6 @@ class Rules {
 
   static Real weight(int j, int k) { return Real(double(j) / k); }
 };
-
-}  // namespace
 
 template <class Real, int Lanes>
 void Evaluation<Real, Lanes>::run(const Program& program, const std::vector<Functions>& functions) {
