@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "eigentrail/reduction/reduced_pencil.hpp"
+#include "reduction/projected.hpp"
 
 namespace eigentrail::test::sparse_reduction_test {
 namespace {
