@@ -137,12 +137,29 @@ TEST(StableRanges, LeaveOutTwoWindowsOfInstability) {
   EXPECT_NEAR(traced.ranges[0].from.margin, 0.4, 1e-12);
   EXPECT_EQ(traced.ranges[0].from.mode, 0);
   EXPECT_EQ(traced.ranges[0].to.margin, 0.0);
-  EXPECT_NEAR(traced.ranges[1].largest_margin, 0.04, 1e-4);
-  EXPECT_NEAR(traced.ranges[1].largest_at, 3.0, 0.1);
+  EXPECT_NEAR(traced.ranges[1].largest_margin, 0.04, 1e-8);
+  EXPECT_NEAR(traced.ranges[1].largest_at, 3.0, 1e-3);
   EXPECT_EQ(traced.ranges[1].least_margin, 0.0);
 }
 
 /// The growth rate in the window is at most 2.5e-9, far below the tolerance. Only the events show it.
+/// A dip of the margin between two points, and a kink where another mode becomes the slowest one.
+TEST(StableRanges, HaveTheExtremaOfTheMargin) {
+  const TracedRanges dip = traced_family("from = 0\nto = 1\ntolerance = 1e-9",
+                                         "M = [ [[1]] ]\n"
+                                         "C = [ [[\"2*(0.3173^2 + 1e-5)\"]], [[\"-4*0.3173\"]], [[2]] ]\n"
+                                         "K = [ [[4]], [[1]] ]\n");
+  ASSERT_EQ(dip.ranges.size(), 1U);
+  EXPECT_NEAR(dip.ranges[0].least_margin, 1e-5, 3e-9);
+  const TracedRanges kink = traced_family("from = 0\nto = 1",
+                                          "M = [ [[1, 0], [0, 1]] ]\n"
+                                          "C = [ [[0.2, 0], [0, 2.2]], [[2, 0], [0, -2]] ]\n"
+                                          "K = [ [[4, 0], [0, 9]] ]\n");
+  ASSERT_EQ(kink.ranges.size(), 1U);
+  EXPECT_NEAR(kink.ranges[0].largest_margin, 0.6, 1e-7);
+  EXPECT_NEAR(kink.ranges[0].largest_at, 0.5, 1e-7);
+}
+
 TEST(StableRanges, SeeAWindowBelowTheTolerance) {
   const TracedRanges traced =
       traced_family("from = 0\nto = 1\ntolerance = 1e-5",

@@ -3,9 +3,10 @@
 // growing complex pair becomes two growing real modes, or the reverse.
 //
 // The cuts are the located events. The stability of a stretch follows from samples: the stored points, which
-// are accurate to rounding, and the dense output at several places of every step. A sample of the dense
-// output counts only if the real parts exceed its error. Where samples show a sign change without an event
-// (for example an eigenvalue that passes through infinity), a cut is added.
+// are accurate to rounding, and the dense output at several places of every step and at the extrema of the
+// margin between them. A sample of the dense output counts only if the real parts exceed its error. Where
+// samples show a sign change without an event (for example an eigenvalue that passes through infinity), a cut
+// is added.
 #pragma once
 
 #include <string>
@@ -41,6 +42,7 @@ struct AxisSample {
   PathPosition at;
   double margin = 0.0;        ///< -max Re s, 1/s
   int critical = -1;          ///< the mode with the largest Re s; -1: no mode exists that moves
+  double doubt = 0.0;         ///< error bound of its Re s, 1/s
   std::vector<int> unstable;  ///< modes with Re s above its error bound
   std::vector<int> decaying;  ///< modes with Re s below minus its error bound
   std::vector<int> open;      ///< all others that exist and move

@@ -21,7 +21,7 @@ struct RangeEnd {
 struct StableRange {
   Stability kind = Stability::stable;  ///< stable, marginal or undecided
   RangeEnd from, to;
-  double least_margin = 0.0;    ///< of the margins at the ends and the samples (AxisStretch), 1/s
+  double least_margin = 0.0;    ///< at the ends and at extrema between them, 1/s
   double largest_margin = 0.0;  ///< of the same margins, 1/s
   double largest_at = 0.0;      ///< parameter value with the largest margin
   /// Whether it holds for the whole model; otherwise for the followed modes, and others may grow.
