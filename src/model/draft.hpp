@@ -94,8 +94,7 @@ struct Draft {
 
   TableReader reader(const Table& table, const std::string& label);
   /// Calls read(table, i) for every table [[kind]] of the scene, i its index from 0.
-  template <class Read>
-  void for_each_table(std::string_view kind, Read read) {
+  void for_each_table(std::string_view kind, auto read) {
     const std::vector<const Table*> all = tables(scene, std::string(kind));
     for (std::size_t i = 0; i < all.size(); ++i) {
       TableReader table = reader(*all[i], "[[" + std::string(kind) + "]] " + std::to_string(i + 1));
@@ -174,9 +173,8 @@ struct Draft {
   void check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
                    Range range) const;
   /// Throws InputError about a key, "message where ...", unless holds(i) for all of these points.
-  template <class Holds>
   void require(const TableReader& reader, const std::string& key, const std::string& message,
-               Holds holds) const {
+               auto holds) const {
     for (std::size_t i = 0; i < check_at.size(); ++i) {
       if (!holds(i)) reader.fail(key, message + where_on_trace(i));
     }

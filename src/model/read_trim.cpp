@@ -93,8 +93,7 @@ class TrimReader {
   }
 
   /// Lets read(reader, "condition") read a part of the condition, with its place in the file.
-  template <class Read>
-  auto read_part(const TableReader& table, const std::string& text, Read read) {
+  auto read_part(const TableReader& table, const std::string& text, auto read) {
     Table part;
     part.where = draft_.begun_where;
     part.entries.emplace_back("condition", Value{text, draft_.begun_where});

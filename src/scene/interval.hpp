@@ -54,8 +54,7 @@ struct Interval {
 };
 
 /// The image under an increasing function.
-template <class Function>
-Interval increasing(const Interval& x, Function f) {
+Interval increasing(const Interval& x, auto f) {
   return {f(x.lower), f(x.upper)};
 }
 

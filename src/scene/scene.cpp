@@ -56,9 +56,8 @@ const T& as(const TableReader& reader, const Value& value, const std::string& ke
 }
 
 /// The items of a list that is not too long, or a single value, each as what `make` makes of it.
-template <class Make>
 auto items_of(const TableReader& reader, const Value& value, const std::string& key, const char* what,
-              const Make& make) {
+              const auto& make) {
   const auto* array = std::get_if<Array>(&value.data);
   std::vector<std::decay_t<decltype(make(value))>> result;
   if (array == nullptr) {
