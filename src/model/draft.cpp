@@ -38,8 +38,7 @@ std::string label_of(TableReader& table, std::string_view kind, std::size_t inde
 
 Draft::Draft(const Scene& of, const ModelRequest& asked)
     : scene(of), request(asked), check_at(asked.check_at), used(asked.used_elsewhere) {
-  for (Vector& values : check_at)
-    scene.parameters.to_si(std::span<double>(values.data(), static_cast<std::size_t>(values.size())));
+  for (Vector& values : check_at) values = scene.parameters.in_si(std::move(values));
 }
 
 TableReader Draft::reader(const Table& table, const std::string& label) {
@@ -264,10 +263,7 @@ ExpressionVector Draft::read_guess(TableReader& table, const std::string& key) c
 
 std::vector<double> Draft::check_values(const Expression& expression) const {
   std::vector<double> values;
-  for (const Vector& si : check_at) {
-    const std::span<const double> span(si.data(), static_cast<std::size_t>(si.size()));
-    values.push_back(expression.evaluate(span));
-  }
+  for (const Vector& si : check_at) values.push_back(expression.value(si));
   return values;
 }
 
@@ -291,8 +287,7 @@ void Draft::check_range(const TableReader& reader, const std::string& key, const
 }
 
 Eigen::Vector3d Draft::vector_at(const ExpressionVector& v, std::size_t i) const {
-  const std::span<const double> si(check_at[i].data(), static_cast<std::size_t>(check_at[i].size()));
-  return {v[0].evaluate(si), v[1].evaluate(si), v[2].evaluate(si)};
+  return {v[0].value(check_at[i]), v[1].value(check_at[i]), v[2].value(check_at[i])};
 }
 
 std::string Draft::where_on_trace(std::size_t i) {

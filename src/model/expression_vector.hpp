@@ -10,7 +10,7 @@ namespace eigentrail {
 
 /// Whether an expression is this number for all values of the parameters.
 inline bool is_number(const Expression& e, double value) {
-  return e.is_constant() && e.evaluate(std::span<const double>()) == value;
+  return e.is_constant() && e.value() == value;
 }
 
 using ExpressionVector = std::array<Expression, 3>;

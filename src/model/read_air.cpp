@@ -75,7 +75,7 @@ class StripReader {
 
   double constant(const std::string& key, const Expression& e, const std::string& expected) {
     if (!e.is_constant()) table_.fail(key, expected + ", found an expression of parameters");
-    return e.evaluate(std::span<const double>());
+    return e.value();
   }
 
   void read_extent() {

@@ -143,7 +143,7 @@ class FamilyReader {
       for (Eigen::Index c = 0; c < n_columns; ++c) {
         const Expression& entry = row[static_cast<std::size_t>(c)];
         if (entry.is_constant()) {
-          constant(r, c) = entry.evaluate(std::span<const double>());
+          constant(r, c) = entry.value();
         } else {
           draft.check_range(table, key, entry, Range::any);
           expressions.add(r, c, entry);

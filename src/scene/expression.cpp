@@ -234,7 +234,7 @@ Expression Expression::parse(std::string_view text, const std::vector<std::strin
 }
 
 Expression Expression::folded() const {
-  return is_constant() ? Expression(evaluate(std::span<const double>())) : *this;
+  return is_constant() ? Expression(value()) : *this;
 }
 
 Expression Expression::compose(Op op, const Expression& a) {

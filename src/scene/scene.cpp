@@ -39,11 +39,9 @@ void set_start_of_trace(Scene& scene, const std::string& name) {
   if (trace.find("from") == nullptr) return;
   std::set<int> used;
   const Expression from = TableReader(scene, trace, "[trace]", used).expression("from");
-  Vector values = scene.parameters.declared_values();
-  scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
   std::vector<Parameter> list = scene.parameters.list();
   list[static_cast<std::size_t>(*scene.parameters.index(name))].value =
-      from.evaluate(std::span<const double>(values.data(), list.size()));
+      from.value(scene.parameters.in_si(scene.parameters.declared_values()));
   scene.parameters = Parameters(std::move(list));
 }
 
@@ -214,7 +212,7 @@ bool TableReader::flag(const std::string& key) {
 
 int TableReader::whole_number(const std::string& key, int least, int most) {
   const Expression found = expression(key);
-  const double value = found.is_constant() ? found.evaluate(std::span<const double>()) : NAN;
+  const double value = found.is_constant() ? found.value() : NAN;
   if (!(value >= least && value <= most) || value != std::floor(value))
     fail(key, "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(value);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "eigentrail/core/series.hpp"
+#include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
 
@@ -96,6 +97,11 @@ class Expression {
   /// Value for given parameter values (SI), one for each name that `parse` got.
   template <class Scalar, class MakeNumber = Number<Scalar>>
   Scalar evaluate(std::span<const Scalar> parameters, MakeNumber number = {}) const;
+
+  /// The same for numbers; a constant needs none.
+  double value(const Vector& si = {}) const {
+    return evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
+  }
 
   bool is_constant() const { return parameters_.empty(); }
 

@@ -17,7 +17,7 @@ MatrixSum::Part& MatrixSum::part(const Expression& factor,
 void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value,
                     const std::shared_ptr<const TabulatedFactor>& table) {
   const bool fixed = !table && factor.is_constant();
-  if (fixed) value *= factor.evaluate(std::span<const double>());
+  if (fixed) value *= factor.value();
   if (row < 0 || column < 0 || value == 0.0) return;
   part(fixed ? 1.0 : factor, table).entries[{row, column}] += value;
 }
@@ -25,7 +25,7 @@ void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& fac
 void MatrixSum::add_product(Eigen::Index row, Eigen::Index column, const Expression& factor,
                             const Expression& entry, double value) {
   if (entry.is_constant()) {
-    add(row, column, factor, value * entry.evaluate(std::span<const double>()));
+    add(row, column, factor, value * entry.value());
   } else {
     add(row, column, factor * entry, value);
   }

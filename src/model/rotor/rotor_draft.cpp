@@ -58,10 +58,8 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
 double RotorDraft::first_value(const Expression& expression) const {
   const std::vector<double> values = draft.check_values(expression);
   if (!values.empty()) return values.front();
-  Vector si = draft.scene.parameters.declared_values();
-  const std::span<double> span(si.data(), draft.scene.parameters.size());
-  draft.scene.parameters.to_si(span);
-  return expression.evaluate(std::span<const double>(span));
+  const Parameters& parameters = draft.scene.parameters;
+  return expression.value(parameters.in_si(parameters.declared_values()));
 }
 
 }  // namespace eigentrail
