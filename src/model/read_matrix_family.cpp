@@ -10,7 +10,6 @@
 #include "eigentrail/scene/limits.hpp"
 #include "model/affine_factor.hpp"
 #include "model/beside_scene.hpp"
-#include "model/compressed_rows.hpp"
 #include "model/draft.hpp"
 #include "model/expression_terms.hpp"
 #include "model/family_tables.hpp"
