@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/expression_dimension.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "scene/read_parameters.hpp"
 
 namespace eigentrail {
@@ -99,16 +100,9 @@ Scene parse_scene(std::string text, const std::string& path, bool generated) {
   return scene;
 }
 
-TableReader::TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used)
-    : scene_(scene), table_(table), label_(std::move(label)), used_(used) {}
-
 const Value* TableReader::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return table_.find(key);
-}
-
-bool TableReader::has(const std::string& key) {
-  return find(key) != nullptr;
 }
 
 const Value& TableReader::require(const std::string& key, const std::string& expected) {
@@ -164,10 +158,6 @@ void TableReader::check_dimension(const Expression& expression, const std::strin
   }
 }
 
-Expression TableReader::expression(const std::string& key, WantedUnit unit) {
-  return to_expression(require(key, "a number or an expression"), key, unit);
-}
-
 Expression TableReader::expression_or(const std::string& key, double otherwise, WantedUnit unit) {
   const Value* value = find(key);
   return value == nullptr ? Expression(otherwise) : to_expression(*value, key, unit);
@@ -182,10 +172,6 @@ std::array<Expression, 3> TableReader::to_vector(const Value& value, const std::
   }
   return {to_expression((*items)[0], key, unit), to_expression((*items)[1], key, unit),
           to_expression((*items)[2], key, unit)};
-}
-
-std::array<Expression, 3> TableReader::vector(const std::string& key, WantedUnit unit) {
-  return to_vector(require(key, "three numbers or expressions [x, y, z]"), key, unit);
 }
 
 NameOrPosition TableReader::name_or_position(const std::string& key, WantedUnit unit) {
@@ -328,6 +314,30 @@ std::vector<int> unused_parameters(const Scene& scene, const std::set<int>& used
     }
   }
   return unused;
+}
+
+std::string traced_parameter(const Scene& scene) {
+  for (const Table* trace : tables(scene, "trace")) {
+    const Value* value = trace->find("parameter");
+    const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+    if (name != nullptr) return *name;
+  }
+  return "";
+}
+
+std::vector<std::string> trimmed_parameters(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Table* trim : tables(scene, "trim")) {
+    const Value* unknown = trim->find("unknown");
+    const auto* name = unknown == nullptr ? nullptr : std::get_if<std::string>(&unknown->data);
+    if (name != nullptr) names.push_back(*name);
+  }
+  return names;
+}
+
+bool is_trimmed(const Scene& scene, const std::string& parameter) {
+  const std::vector<std::string> names = trimmed_parameters(scene);
+  return std::find(names.begin(), names.end(), parameter) != names.end();
 }
 
 }  // namespace eigentrail
