@@ -58,10 +58,6 @@ Quantity Draft::quantity(const Expression& expression) {
   return {expression, static_cast<int>(data.quantities.size()) - 1};
 }
 
-Quantity Draft::quantity_unless_zero(const Expression& expression) {
-  return is_number(expression, 0.0) ? Quantity() : quantity(expression);
-}
-
 bool Draft::is_left_out(std::string_view effect) const {
   return std::find(request.without.begin(), request.without.end(), effect) != request.without.end();
 }
@@ -103,10 +99,6 @@ Place Draft::on_body(int body, const ExpressionVector& at) {
   Combination position = on_directors(body, at);
   position.emplace(position.begin(), bodies[static_cast<std::size_t>(body)].triple, 1.0);
   return place_of(position);
-}
-
-Place Draft::direction_on(const Carrier& carrier, const ExpressionVector& along) {
-  return carrier.body < 0 ? fixed_place(along) : place_of(on_directors(carrier.body, along));
 }
 
 ExpressionVector Draft::at_guess(const Place& place) const {
@@ -216,15 +208,6 @@ ExpressionVector Draft::read_direction(TableReader& table, const std::string& ke
   return normalized(along);
 }
 
-ExpressionVector Draft::in_frame(const Carrier& carrier, const ExpressionVector& along) const {
-  return carrier.body < 0 ? along : turned(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
-}
-
-ExpressionVector Draft::in_axes_of(const Carrier& carrier, const ExpressionVector& along) const {
-  return carrier.body < 0 ? along
-                          : turned_back(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
-}
-
 void Draft::add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows) {
   const auto& kinds = constraint_kinds();
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == kind; });
@@ -284,10 +267,6 @@ void Draft::check_range(const TableReader& reader, const std::string& key, const
   if (range == Range::any) return;
   require(reader, key, "must not be the zero vector; it is",
           [&](std::size_t i) { return vector_at(vector, i).norm() > 0.0; });
-}
-
-Eigen::Vector3d Draft::vector_at(const ExpressionVector& v, std::size_t i) const {
-  return {v[0].value(check_at[i]), v[1].value(check_at[i]), v[2].value(check_at[i])};
 }
 
 std::string Draft::where_on_trace(std::size_t i) {

@@ -168,8 +168,7 @@ std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& 
          exact_text(what.to) + " the entry " + layout.name(what.worst) + " is off by " +
          short_text(what.error, 3) +
          " of its largest magnitude. Is there a kink? Name the place in breaks. Does it jump? Then the two "
-         "sides are two "
-         "families. Else allow a larger tolerance" +
+         "sides are two families. Else allow a larger tolerance" +
          (out_of_calls ? " or more calls" : "");
 }
 

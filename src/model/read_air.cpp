@@ -19,22 +19,21 @@ constexpr int polar_degree = 4;
 
 /// Keys of [[strips]] that may have a value per station.
 std::vector<FieldHelp> station_fields() {
-  return {
-      {"span", "list",
-       "where the stations are, from the first where the beam begins to the last where it ends, in any "
-       "unit; keys below then may be lists of a number per station, linear in between",
-       "the same for all"},
-      {"file", "text", "CSV file with columns span and any keys below, beside the scene", "none"},
-      {"chord", "m", "chord"},
-      {"quarter_chord_y", "m",
-       "from the axis of the beam, or the line on the body, to the quarter chord, along the y axis of the "
-       "section",
-       "0"},
-      {"incidence", "rad", "of the chord against the y axis of the section, nose up", "0"},
-      {"lift_slope", "1/rad", "slope of the lift coefficient", "2 pi"},
-      {"zero_lift_angle", "rad", "angle of attack without lift", "0"},
-      {"drag", "", "drag coefficient", "0"},
-      {"moment", "", "moment coefficient about the quarter chord, nose up", "0"}};
+  return {{"span", "list",
+           "where the stations are, from the first where the beam begins to the last where it ends, in any "
+           "unit; keys below then may be lists of a number per station, linear in between",
+           "the same for all"},
+          {"file", "text", "CSV file with columns span and any keys below, beside the scene", "none"},
+          {"chord", "m", "chord"},
+          {"quarter_chord_y", "m",
+           "from the axis of the beam, or the line on the body, to the quarter chord, along the y axis of "
+           "the section",
+           "0"},
+          {"incidence", "rad", "of the chord against the y axis of the section, nose up", "0"},
+          {"lift_slope", "1/rad", "slope of the lift coefficient", "2 pi"},
+          {"zero_lift_angle", "rad", "angle of attack without lift", "0"},
+          {"drag", "", "drag coefficient", "0"},
+          {"moment", "", "moment coefficient about the quarter chord, nose up", "0"}};
 }
 
 /// A point of a line along which strips are placed, the axis of a beam or a straight line on a body, with the
@@ -200,11 +199,7 @@ class StripReader {
     draft_.require(table_, "wind",
                    "must be parallel to [frame] angular_velocity, or it turns in the frame and there is no "
                    "steady state; it is not",
-                   [&](std::size_t i) {
-                     const Eigen::Vector3d u = draft_.vector_at(wind, i);
-                     const Eigen::Vector3d w = draft_.vector_at(rotation, i);
-                     return w.cross(u).norm() <= 1e-12 * w.norm() * u.norm();
-                   });
+                   [&](std::size_t i) { return draft_.are_parallel(rotation, wind, 1e-12, i); });
   }
 
   std::vector<Strip> make_strips(const Strip& common) {
@@ -363,8 +358,7 @@ std::vector<FieldHelp> strips_fields() {
       {"root", "[x, y, z] m", "on a body: where the strips begin, in the body's axes", "none"},
       {"tip", "[x, y, z] m", "on a body: where they end", "none"},
       {"leading", "[x, y, z]",
-       "on a body: direction from trailing to leading edge; on a beam the y axis of "
-       "the section",
+       "on a body: direction from trailing to leading edge; on a beam the y axis of the section",
        "[0, 1, 0]"},
       {"lift", "[x, y, z]", "on a body: direction of lift; on a beam the z axis of the section", "[0, 0, 1]"},
       {"wind", "[x, y, z] m/s", "velocity of the air; in a rotating frame parallel to its axis", "[0, 0, 0]"},
@@ -374,8 +368,7 @@ std::vector<FieldHelp> strips_fields() {
       {"inflow", "name of an inflow", "the [[inflow]] of the rotor", "none"},
       {"polar", "text",
        "CSV file with the angle of attack, `alpha [deg]`, and columns lift, drag, moment: coefficients in "
-       "place of "
-       "lift_slope and zero_lift_angle",
+       "place of lift_slope and zero_lift_angle",
        "none"}};
   for (FieldHelp& field : station_fields()) fields.push_back(std::move(field));
   return fields;

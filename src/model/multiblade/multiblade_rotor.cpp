@@ -122,9 +122,8 @@ class RotorAssembly {
     if (away <= still_on_axis * size && inclined <= still_on_axis) return {};
     return {data_.hub,
             "the hub '" + data_.hub + "' " + (away > still_on_axis * size ? "leaves" : "is inclined to") +
-                " the axis of rotation under a steady load across it, and the equations keep "
-                "coefficients that change with the azimuth; hold it on the z axis, or balance the load "
-                "of its support"};
+                " the axis of rotation under a steady load across it, and the equations keep coefficients "
+                "that change with the azimuth; hold it on the z axis, or balance the load of its support"};
   }
 
   EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const {
