@@ -1,7 +1,6 @@
 #include "model/family_tables.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/traced_parameter.hpp"
@@ -35,19 +34,6 @@ std::string fault_of_names(const std::vector<std::string>& names, Eigen::Index n
   return same ? "has '" + names[same->first] + "' twice, for states " + std::to_string(same->first + 1) +
                     " and " + std::to_string(same->second + 1) + "; give every state a name of its own"
               : "";
-}
-
-std::optional<int> power_in(const std::string& name) {
-  int power = 0;
-  const char* const end = name.data() + name.size();
-  const auto parsed = std::from_chars(name.data(), end, power);
-  return parsed.ec == std::errc() && parsed.ptr == end ? std::optional(power) : std::nullopt;
-}
-
-Expression power_of_parameter(int parameter, int power) {
-  Expression result = 1.0;
-  for (int i = 0; i < power; ++i) result = result * Expression::of_parameter(parameter);
-  return result;
 }
 
 ModelDescription describe_states(Eigen::Index n, const std::vector<std::string>& names,

@@ -1,7 +1,6 @@
 // What the readers of families of matrices have in common.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +24,6 @@ std::string unknown_member(const Hdf5File& file, const std::vector<std::string>&
 /// Why names of n states are refused: too many or too few of them, or one that is there twice. Empty for good
 /// names, and for none.
 std::string fault_of_names(const std::vector<std::string>& names, Eigen::Index n);
-
-/// The number that a text is as a whole: a power of the parameter.
-std::optional<int> power_in(const std::string& name);
-/// p^power for the parameter with this index.
-Expression power_of_parameter(int parameter, int power);
 
 /// A description with n coordinates: x1, x2, ... and the unit 1 where names and units are empty.
 ModelDescription describe_states(Eigen::Index n, const std::vector<std::string>& names,

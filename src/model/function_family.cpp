@@ -233,9 +233,9 @@ std::string resolution_text(const FunctionFamilyOptions& options, const std::vec
   const std::string unit = options.unit.empty() ? "" : " " + options.unit;
   std::string text =
       "features of the function down to " + short_text(resolved, 3) + unit + " were looked for";
-  std::string places;
-  for (const FamilyPiece& piece : sharp_pieces(pieces, resolved))
-    places += (places.empty() ? "" : ", ") + short_text(0.5 * (piece.from + piece.to), 6);
+  const std::string places = joined(sharp_pieces(pieces, resolved), ", ", [](const FamilyPiece& piece) {
+    return short_text(0.5 * (piece.from + piece.to), 6);
+  });
   return places.empty() ? text
                         : text + "; sharper, perhaps kinks: at " + options.parameter + " = " + places + unit;
 }

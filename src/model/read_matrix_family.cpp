@@ -156,12 +156,14 @@ class FamilyReader {
 
   Expression factor_of_power(int power) {
     if (power > 0) draft.used.insert(variable_);
-    return power_of_parameter(variable_, power);
+    Expression result = 1.0;
+    for (int i = 0; i < power; ++i) result = result * Expression::of_parameter(variable_);
+    return result;
   }
 
   Expression factor(const std::string& key, const std::string& name) {
     const std::string path = path_of(key, name);
-    if (const std::optional<int> power = power_in(name)) {
+    if (const std::optional<int> power = parsed_number<int>(name)) {
       if (*power < 0 || *power > max_power)
         fail("file", "dataset " + path + ": expected a power from 0 to " + std::to_string(max_power));
       return factor_of_power(*power);

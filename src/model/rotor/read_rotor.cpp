@@ -77,13 +77,11 @@ void read_discs(RotorDraft& rotor) {
                                  : inertia_of_cylinder(rotor.draft, table);
     if (table.has("name")) (void)table.text("name");
     table.finish();
-    std::string where;
-    for (const NodePlace& place : places) {
-      add_disc(rotor, place, disc);
-      where += (where.empty() ? "" : ", ") + rotor.name_of(place);
-    }
-    rotor.draft.notes.emplace_back("disc " + std::to_string(i + 1),
-                                   short_text(rotor.first_value(disc.mass), 6) + " kg at " + where);
+    for (const NodePlace& place : places) add_disc(rotor, place, disc);
+    const auto name_of = [&](const NodePlace& place) { return rotor.name_of(place); };
+    rotor.draft.notes.emplace_back(
+        "disc " + std::to_string(i + 1),
+        short_text(rotor.first_value(disc.mass), 6) + " kg at " + joined(places, ", ", name_of));
   });
 }
 

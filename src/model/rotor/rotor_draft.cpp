@@ -1,7 +1,8 @@
 #include "model/rotor/rotor_draft.hpp"
 
 #include <algorithm>
-#include <charconv>
+
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -34,10 +35,9 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
   const std::vector<std::string> names = names_of(shafts);
   for (const std::string& text : table.texts(key)) {
     const std::size_t digits = text.find_last_not_of("0123456789") + 1;
-    long number = 0;
-    const auto [end, error] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
+    const auto number = parsed_number<long>(std::string_view(text).substr(digits));
     const std::string expected = shafts.size() == 1 ? "3" : "\"" + names.front() + " node 3\"";
-    if (digits == text.size() || error != std::errc() || end != text.data() + text.size())
+    if (!number)
       table.fail(key, "expected the number of a node, such as " + expected + ", found \"" + text + "\"");
     const std::string name = shaft_part(text.substr(0, digits));
     std::size_t shaft = 0;
@@ -47,10 +47,10 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
       shaft = index_of(name, names, table, key, "shaft");
     }
     const std::size_t count = shafts[shaft].held.size();
-    if (number < 1 || number > static_cast<long>(count))
-      table.fail(key, "there is no " + shafts[shaft].node_name(static_cast<std::size_t>(number - 1)) +
+    if (*number < 1 || *number > static_cast<long>(count))
+      table.fail(key, "there is no " + shafts[shaft].node_name(static_cast<std::size_t>(*number - 1)) +
                           "; the nodes are numbered from 1 to " + std::to_string(count));
-    places.push_back({shaft, static_cast<std::size_t>(number - 1)});
+    places.push_back({shaft, static_cast<std::size_t>(*number - 1)});
   }
   if (places.empty()) table.fail(key, "expected a node, found an empty list");
   return places;
