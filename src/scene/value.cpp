@@ -244,6 +244,13 @@ std::string toml_hint(std::string_view text, int line, std::string_view descript
 
 }  // namespace
 
+Table::Table() = default;
+Table::Table(const Table&) = default;
+Table::Table(Table&&) noexcept = default;
+Table& Table::operator=(const Table&) = default;
+Table& Table::operator=(Table&&) noexcept = default;
+Table::~Table() = default;
+
 const Value* Table::find(std::string_view key) const {
   for (const auto& [name, value] : entries) {
     if (name == key) return &value;

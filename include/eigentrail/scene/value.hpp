@@ -17,6 +17,14 @@ struct Table {
   std::vector<std::pair<std::string, Value>> entries;
   SourceLocation where;
 
+  // Defined in value.cpp, where Value is complete.
+  Table();
+  Table(const Table&);
+  Table(Table&&) noexcept;
+  Table& operator=(const Table&);
+  Table& operator=(Table&&) noexcept;
+  ~Table();
+
   const Value* find(std::string_view key) const;
 };
 
