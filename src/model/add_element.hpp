@@ -42,19 +42,7 @@ class ArgumentCollector {
   std::vector<Place>& arguments_;
 };
 
-/// Adds the states of an element to the coordinates.
-template <class Element>
-void add_states(Draft& draft, Placed<Element>& placed) {
-  if constexpr (number_of_states<Element>() > 0) {
-    placed.first_state = static_cast<int>(draft.state_names.size());
-    for (const OwnState& state : Element::states) {
-      draft.state_names.push_back(placed.label + "." + std::string(state.name));
-      draft.state_units.emplace_back(state.unit);
-    }
-  }
-}
-
-/// Adds an element unless its effect is switched off.
+/// Adds an element, and its states to the coordinates, unless its effect is switched off.
 template <class Element>
 void add_element(Draft& draft, Element element, std::string label) {
   if (draft.is_left_out(Element::name)) return;
@@ -62,7 +50,13 @@ void add_element(Draft& draft, Element element, std::string label) {
       std::move(element), std::move(label), {}, draft.strength(std::string(Element::name))};
   ArgumentCollector collector(placed.arguments);
   Element::fields(placed.element, collector);
-  add_states(draft, placed);
+  if constexpr (number_of_states<Element>() > 0) {
+    placed.first_state = static_cast<int>(draft.state_names.size());
+    for (const OwnState& state : Element::states) {
+      draft.state_names.push_back(placed.label + "." + std::string(state.name));
+      draft.state_units.emplace_back(state.unit);
+    }
+  }
   draft.data.elements.list<Element>().push_back(std::move(placed));
 }
 

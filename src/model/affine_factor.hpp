@@ -26,13 +26,11 @@ bool all_equal_transposes(const std::vector<AffineTerm<Storage>>& terms, double 
 }
 
 /// What a damping matrix contributes that is a sum of these terms, or interpolated between these samples.
-template <class Matrices>
-Contribution damping_parts(const Matrices& all) {
+Contribution damping_parts(const auto& all) {
   return {.dissipative = !all_equal_transposes(all, -1.0), .gyroscopic = !all_equal_transposes(all, 1.0)};
 }
 /// Likewise a stiffness matrix.
-template <class Matrices>
-Contribution stiffness_parts(const Matrices& all) {
+Contribution stiffness_parts(const auto& all) {
   return {.conservative = true, .circulatory = !all_equal_transposes(all, 1.0)};
 }
 

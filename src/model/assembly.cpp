@@ -73,8 +73,7 @@ class MovedTriples {
   }
 
   /// Calls visit(triple, w).
-  template <class Visit>
-  void for_each(Visit visit) const {
+  void for_each(auto visit) const {
     for (const Moved& moved : moved_) visit(moved.triple, moved.w);
   }
 

@@ -10,8 +10,7 @@ namespace eigentrail {
 namespace {
 
 /// Sum of weights times values.
-template <class Value>
-Expression weighted(const std::vector<double>& weights, const std::vector<Value>& values) {
+Expression weighted(const std::vector<double>& weights, const std::vector<Expression>& values) {
   Expression sum(0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) sum = sum + Expression(weights[i]) * values[i];
   return sum;

@@ -152,8 +152,7 @@ class BeamBuilder {
   }
 
   /// Calls visit(xi, weight) for the points of the parts of an element between stations.
-  template <class Visit>
-  void for_each_mass_point(int e, Visit visit) const {
+  void for_each_mass_point(int e, auto visit) const {
     std::vector<double> ends = {0.0};
     for (const double s : design_.sections.span) {
       const double xi = s * axis_.elements - e;

@@ -97,7 +97,7 @@ std::vector<BeamTable::Stiffness> stiffness_columns(const TableReader& table, St
       const Column column = columns.required(entry_key(i, j), entry_unit(i, j), Range::any);
       for (std::size_t k = 0; k < stiffness.size(); ++k) {
         stiffness[k][section_entry(i, j)] = column[k];
-        values[k](static_cast<int>(i), static_cast<int>(j)) = column[k].evaluate(std::span<const double>());
+        values[k](static_cast<int>(i), static_cast<int>(j)) = column[k].value();
       }
     }
   }

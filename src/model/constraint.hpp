@@ -40,8 +40,7 @@ struct ConstraintRow {
   std::vector<CoupledMotion> coupled = {};  ///< if there are such, the row is their sum - offset
 
   /// Calls visit(place) for all places.
-  template <class Self, class Visit>
-  static void for_each_place(Self& self, const Visit& visit) {
+  static void for_each_place(auto& self, const auto& visit) {
     for (auto& motion : self.coupled) {
       for (auto* place : {&motion.joint.axis, &motion.joint.from, &motion.joint.to}) visit(*place);
     }

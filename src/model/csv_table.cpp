@@ -1,7 +1,6 @@
 #include "model/csv_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -32,14 +31,9 @@ char separator_of(const std::string& headings) {
 }
 
 std::vector<std::string> cells_of(const std::string& line, char separator) {
-  std::vector<std::string> cells;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t end = line.find(separator, begin);
-    cells.push_back(without_blanks(line.substr(begin, end == std::string::npos ? end : end - begin)));
-    if (end == std::string::npos) return cells;
-    begin = end + 1;
-  }
+  std::vector<std::string> cells = split(line, separator);
+  for (std::string& cell : cells) cell = without_blanks(cell);
+  return cells;
 }
 
 CsvColumn heading_of(const std::string& path, int line, const std::string& cell) {
@@ -57,13 +51,10 @@ CsvColumn heading_of(const std::string& path, int line, const std::string& cell)
 }
 
 double number_in(const CsvTable& table, int line, const CsvColumn& column, const std::string& cell) {
-  double value = 0.0;
-  const char* end = cell.data() + cell.size();
-  const char* begin = cell.data() + (!cell.empty() && cell[0] == '+' ? 1 : 0);
-  const auto [at, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || at != end || !std::isfinite(value))
+  const auto value = parsed_number<double>(std::string_view(cell).substr(cell.starts_with('+') ? 1 : 0));
+  if (!value || !std::isfinite(*value))
     csv_fault(table.path, line, column.name + ": expected a finite number, found '" + cell + "'");
-  return value;
+  return *value;
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ struct CsvTable {
 CsvTable read_csv(const std::string& path);
 
 /// What `read` makes of the file that a key of a scene's table names. InputErrors get the place in the scene.
-template <class Read>
-auto read_csv(const Scene& scene, TableReader& table, const std::string& key, Read read) {
+auto read_csv(const Scene& scene, TableReader& table, const std::string& key, auto read) {
   const std::string path = beside_scene(scene, table, key);
   try {
     return read(read_csv(path));

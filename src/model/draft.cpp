@@ -38,8 +38,7 @@ std::string label_of(TableReader& table, std::string_view kind, std::size_t inde
 
 Draft::Draft(const Scene& of, const ModelRequest& asked)
     : scene(of), request(asked), check_at(asked.check_at), used(asked.used_elsewhere) {
-  for (Vector& values : check_at)
-    scene.parameters.to_si(std::span<double>(values.data(), static_cast<std::size_t>(values.size())));
+  for (Vector& values : check_at) values = scene.parameters.in_si(std::move(values));
 }
 
 TableReader Draft::reader(const Table& table, const std::string& label) {
@@ -57,10 +56,6 @@ Quantity Draft::quantity(const Expression& expression) {
   }
   data.quantities.push_back(expression);
   return {expression, static_cast<int>(data.quantities.size()) - 1};
-}
-
-Quantity Draft::quantity_unless_zero(const Expression& expression) {
-  return is_number(expression, 0.0) ? Quantity() : quantity(expression);
 }
 
 bool Draft::is_left_out(std::string_view effect) const {
@@ -104,10 +99,6 @@ Place Draft::on_body(int body, const ExpressionVector& at) {
   Combination position = on_directors(body, at);
   position.emplace(position.begin(), bodies[static_cast<std::size_t>(body)].triple, 1.0);
   return place_of(position);
-}
-
-Place Draft::direction_on(const Carrier& carrier, const ExpressionVector& along) {
-  return carrier.body < 0 ? fixed_place(along) : place_of(on_directors(carrier.body, along));
 }
 
 ExpressionVector Draft::at_guess(const Place& place) const {
@@ -217,15 +208,6 @@ ExpressionVector Draft::read_direction(TableReader& table, const std::string& ke
   return normalized(along);
 }
 
-ExpressionVector Draft::in_frame(const Carrier& carrier, const ExpressionVector& along) const {
-  return carrier.body < 0 ? along : turned(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
-}
-
-ExpressionVector Draft::in_axes_of(const Carrier& carrier, const ExpressionVector& along) const {
-  return carrier.body < 0 ? along
-                          : turned_back(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
-}
-
 void Draft::add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows) {
   const auto& kinds = constraint_kinds();
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == kind; });
@@ -264,10 +246,7 @@ ExpressionVector Draft::read_guess(TableReader& table, const std::string& key) c
 
 std::vector<double> Draft::check_values(const Expression& expression) const {
   std::vector<double> values;
-  for (const Vector& si : check_at) {
-    const std::span<const double> span(si.data(), static_cast<std::size_t>(si.size()));
-    values.push_back(expression.evaluate(span));
-  }
+  for (const Vector& si : check_at) values.push_back(expression.value(si));
   return values;
 }
 
@@ -288,11 +267,6 @@ void Draft::check_range(const TableReader& reader, const std::string& key, const
   if (range == Range::any) return;
   require(reader, key, "must not be the zero vector; it is",
           [&](std::size_t i) { return vector_at(vector, i).norm() > 0.0; });
-}
-
-Eigen::Vector3d Draft::vector_at(const ExpressionVector& v, std::size_t i) const {
-  const std::span<const double> si(check_at[i].data(), static_cast<std::size_t>(check_at[i].size()));
-  return {v[0].evaluate(si), v[1].evaluate(si), v[2].evaluate(si)};
 }
 
 std::string Draft::where_on_trace(std::size_t i) {

@@ -94,8 +94,7 @@ struct Draft {
 
   TableReader reader(const Table& table, const std::string& label);
   /// Calls read(table, i) for every table [[kind]] of the scene, i its index from 0.
-  template <class Read>
-  void for_each_table(std::string_view kind, Read read) {
+  void for_each_table(std::string_view kind, auto read) {
     const std::vector<const Table*> all = tables(scene, std::string(kind));
     for (std::size_t i = 0; i < all.size(); ++i) {
       TableReader table = reader(*all[i], "[[" + std::string(kind) + "]] " + std::to_string(i + 1));
@@ -105,7 +104,9 @@ struct Draft {
 
   Quantity quantity(const Expression& expression);
   /// The same, but without slot if it is zero for all values of the parameters.
-  Quantity quantity_unless_zero(const Expression& expression);
+  Quantity quantity_unless_zero(const Expression& expression) {
+    return is_number(expression, 0.0) ? Quantity() : quantity(expression);
+  }
   /// Whether an effect is switched off (--without).
   bool is_left_out(std::string_view effect) const;
   /// The quantity that multiplies the forces of an effect; without slot if strengths are not requested.
@@ -126,7 +127,9 @@ struct Draft {
   /// The place with coordinates `at` in the axes of a body.
   Place on_body(int body, const ExpressionVector& at);
   /// The direction with components `along` in the axes of the carrier.
-  Place direction_on(const Carrier& carrier, const ExpressionVector& along);
+  Place direction_on(const Carrier& carrier, const ExpressionVector& along) {
+    return carrier.body < 0 ? fixed_place(along) : place_of(on_directors(carrier.body, along));
+  }
   std::array<Place, 3> directors(int body) const;
   /// Components of a place or a direction in the frame, at the starting guess.
   ExpressionVector at_guess(const Place& place) const;
@@ -149,8 +152,13 @@ struct Draft {
 
   /// Components in the frame, at the starting guess, of a direction given in the axes of a carrier; and the
   /// reverse.
-  ExpressionVector in_frame(const Carrier& carrier, const ExpressionVector& along) const;
-  ExpressionVector in_axes_of(const Carrier& carrier, const ExpressionVector& along) const;
+  ExpressionVector in_frame(const Carrier& carrier, const ExpressionVector& along) const {
+    return carrier.body < 0 ? along : turned(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
+  }
+  ExpressionVector in_axes_of(const Carrier& carrier, const ExpressionVector& along) const {
+    return carrier.body < 0 ? along
+                            : turned_back(bodies[static_cast<std::size_t>(carrier.body)].rotation, along);
+  }
 
   /// Adds the rows of a constraint; `label` names its multipliers.
   void add_constraint(std::string_view kind, const std::string& label, std::vector<ConstraintRow> rows);
@@ -174,14 +182,20 @@ struct Draft {
   void check_range(const TableReader& reader, const std::string& key, const ExpressionVector& vector,
                    Range range) const;
   /// Throws InputError about a key, "message where ...", unless holds(i) for all of these points.
-  template <class Holds>
   void require(const TableReader& reader, const std::string& key, const std::string& message,
-               Holds holds) const {
+               auto holds) const {
     for (std::size_t i = 0; i < check_at.size(); ++i) {
       if (!holds(i)) reader.fail(key, message + where_on_trace(i));
     }
   }
-  Eigen::Vector3d vector_at(const ExpressionVector& v, std::size_t i) const;
+  Eigen::Vector3d vector_at(const ExpressionVector& v, std::size_t i) const {
+    return {v[0].value(check_at[i]), v[1].value(check_at[i]), v[2].value(check_at[i])};
+  }
+  /// Whether the sine of the angle between two vectors is at most `sine` at one of the points.
+  bool are_parallel(const ExpressionVector& a, const ExpressionVector& b, double sine, std::size_t i) const {
+    const Eigen::Vector3d u = vector_at(a, i), v = vector_at(b, i);
+    return u.cross(v).norm() <= sine * u.norm() * v.norm();
+  }
   static std::string where_on_trace(std::size_t i);
 
  private:

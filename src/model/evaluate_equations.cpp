@@ -16,8 +16,7 @@ struct Probe {
 };
 
 /// Calls add(k, value) for the coefficients of a result.
-template <class Evaluation, class Add>
-int for_each_coefficient(const Evaluation& evaluation, int slot, int lane, int order, Add add) {
+int for_each_coefficient(const auto& evaluation, int slot, int lane, int order, auto add) {
   const auto* const series = evaluation.series(slot);
   const int top = evaluation.varies(slot) ? order : 0;
   for (int k = 0; k <= top; ++k) add(k, series[k][lane]);
@@ -94,8 +93,7 @@ class EquationRun {
 
   /// Calls take(evaluation, element, lane) with the results of each element of a batch. A single element
   /// takes the evaluation of one lane.
-  template <class Take>
-  void for_each_element(const Batch& batch, const Program& program, Take take) {
+  void for_each_element(const Batch& batch, const Program& program, auto take) {
     if (batch.size == 1)
       run(batch, program, work_.single, take);
     else
@@ -145,8 +143,7 @@ class EquationRun {
     }
   }
 
-  template <class Evaluation>
-  void add_residual(const Batch& batch, const Evaluation& evaluation, std::size_t element, int lane,
+  void add_residual(const Batch& batch, const auto& evaluation, std::size_t element, int lane,
                     BasicSteadyResidual<Real>& result) {
     Probe<Real> probe;
     const int* const coordinates =
@@ -169,8 +166,7 @@ class EquationRun {
     if (!probe.is_finite()) first_fault_ = std::min(first_fault_, batch.labels[element]);
   }
 
-  template <class Evaluation>
-  void add_entries(const Batch& batch, const Evaluation& evaluation, std::size_t element, int lane) {
+  void add_entries(const Batch& batch, const auto& evaluation, std::size_t element, int lane) {
     Probe<Real> probe;
     const std::vector<Entry>& entries = batch.derivatives.entries;
     const int* position = batch.positions.data() + element * entries.size();

@@ -18,8 +18,7 @@ std::vector<Vector> places_to_compare(const Parameters& parameters) {
       const double share = std::fmod(static_cast<double>(place * (i + 1)) * std::numbers::phi, 1.0);
       values[i] += share * (1.0 + std::abs(values[i]));
     }
-    parameters.to_si(std::span<double>(values.data(), parameters.size()));
-    places.push_back(std::move(values));
+    places.push_back(parameters.in_si(std::move(values)));
   }
   return places;
 }
@@ -27,10 +26,8 @@ std::vector<Vector> places_to_compare(const Parameters& parameters) {
 /// Whether two expressions are `sign` times each other. They may be written differently ("a*b" and "b*a"), as
 /// long as they have the same values.
 bool agree(const Expression& a, const Expression& b, double sign, const std::vector<Vector>& places) {
-  return std::all_of(places.begin(), places.end(), [&](const Vector& place) {
-    const std::span<const double> si(place.data(), static_cast<std::size_t>(place.size()));
-    return a.evaluate(si) == sign * b.evaluate(si);
-  });
+  return std::all_of(places.begin(), places.end(),
+                     [&](const Vector& si) { return a.value(si) == sign * b.value(si); });
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "eigentrail/scene/expression.hpp"
 
@@ -10,7 +9,7 @@ namespace eigentrail {
 
 /// Whether an expression is this number for all values of the parameters.
 inline bool is_number(const Expression& e, double value) {
-  return e.is_constant() && e.evaluate(std::span<const double>()) == value;
+  return e.is_constant() && e.value() == value;
 }
 
 using ExpressionVector = std::array<Expression, 3>;

@@ -1,7 +1,6 @@
 // What the readers of families of matrices have in common.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +25,20 @@ std::string unknown_member(const Hdf5File& file, const std::vector<std::string>&
 /// names, and for none.
 std::string fault_of_names(const std::vector<std::string>& names, Eigen::Index n);
 
-/// The number that a text is as a whole: a power of the parameter.
-std::optional<int> power_in(const std::string& name);
-/// p^power for the parameter with this index.
-Expression power_of_parameter(int parameter, int power);
-
 /// A description with n coordinates: x1, x2, ... and the unit 1 where names and units are empty.
 ModelDescription describe_states(Eigen::Index n, const std::vector<std::string>& names,
                                  const std::vector<std::string>& units = {});
+
+/// Whether a matrix of the file is sparse: a group with the datasets data, indices and indptr, as
+/// scipy.sparse.csr_matrix.
+bool is_compressed(const Hdf5File& file, const std::string& path);
+
+/// How many numbers a sparse matrix has; 0 where it has no list of them.
+std::size_t compressed_numbers(const Hdf5File& file, const std::string& path);
+
+/// The matrix, square, of at most `most_rows` rows. For every fault throws an InputError about the key `file`
+/// of the table.
+SparseMatrix read_compressed_rows(const Hdf5File& file, const std::string& path, Eigen::Index most_rows,
+                                  const TableReader& table);
 
 }  // namespace eigentrail

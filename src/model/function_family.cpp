@@ -168,8 +168,7 @@ std::string unresolved_text(const FunctionFamilyOptions& options, const Layout& 
          exact_text(what.to) + " the entry " + layout.name(what.worst) + " is off by " +
          short_text(what.error, 3) +
          " of its largest magnitude. Is there a kink? Name the place in breaks. Does it jump? Then the two "
-         "sides are two "
-         "families. Else allow a larger tolerance" +
+         "sides are two families. Else allow a larger tolerance" +
          (out_of_calls ? " or more calls" : "");
 }
 
@@ -234,9 +233,9 @@ std::string resolution_text(const FunctionFamilyOptions& options, const std::vec
   const std::string unit = options.unit.empty() ? "" : " " + options.unit;
   std::string text =
       "features of the function down to " + short_text(resolved, 3) + unit + " were looked for";
-  std::string places;
-  for (const FamilyPiece& piece : sharp_pieces(pieces, resolved))
-    places += (places.empty() ? "" : ", ") + short_text(0.5 * (piece.from + piece.to), 6);
+  const std::string places = joined(sharp_pieces(pieces, resolved), ", ", [](const FamilyPiece& piece) {
+    return short_text(0.5 * (piece.from + piece.to), 6);
+  });
   return places.empty() ? text
                         : text + "; sharper, perhaps kinks: at " + options.parameter + " = " + places + unit;
 }

@@ -53,10 +53,7 @@ Structure structure_of(std::initializer_list<const Assembly*> parts, const std::
   std::array<Inputs, 4> matrices;
   for (const Assembly* part : parts) {
     part->data().elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
-      if (list.empty()) return;
-      result.damped = result.damped || Element::contribution.dissipative;
-      result.gyroscopic = result.gyroscopic || Element::contribution.gyroscopic;
-      result.circulatory = result.circulatory || Element::contribution.circulatory;
+      if (!list.empty()) result.add(Element::contribution);
     });
     residual.add(part->equations().inputs_of_residual);
     for (std::size_t target = 0; target < matrices.size(); ++target)

@@ -34,12 +34,9 @@ class RecordedModel final : public Model {
         guess_(std::move(guess)) {}
 
   Vector initial_guess(const Vector& parameters) const override {
-    Vector si = parameters;
-    const std::span<double> values(si.data(), static_cast<std::size_t>(si.size()));
-    equations_.data().parameters.to_si(values);
+    const Vector si = equations_.data().parameters.in_si(parameters);
     Vector x = Vector::Zero(n_coordinates());
-    for (std::size_t i = 0; i < guess_.size(); ++i)
-      x[equations_.coordinate(i)] = guess_[i].evaluate(std::span<const double>(values));
+    for (std::size_t i = 0; i < guess_.size(); ++i) x[equations_.coordinate(i)] = guess_[i].value(si);
     settle_states(*this, parameters, x);
     return x;
   }

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "model/add_element.hpp"
+#include "model/beam_axis.hpp"
 #include "model/coefficient_table.hpp"
-#include "model/station_columns.hpp"
 
 namespace eigentrail {
 namespace {
@@ -19,22 +19,89 @@ constexpr int polar_degree = 4;
 
 /// Keys of [[strips]] that may have a value per station.
 std::vector<FieldHelp> station_fields() {
-  return {
-      {"span", "list",
-       "where the stations are, from the first where the beam begins to the last where it ends, in any "
-       "unit; keys below then may be lists of a number per station, linear in between",
-       "the same for all"},
-      {"file", "text", "CSV file with columns span and any keys below, beside the scene", "none"},
-      {"chord", "m", "chord"},
-      {"quarter_chord_y", "m",
-       "from the axis of the beam, or the line on the body, to the quarter chord, along the y axis of the "
-       "section",
-       "0"},
-      {"incidence", "rad", "of the chord against the y axis of the section, nose up", "0"},
-      {"lift_slope", "1/rad", "slope of the lift coefficient", "2 pi"},
-      {"zero_lift_angle", "rad", "angle of attack without lift", "0"},
-      {"drag", "", "drag coefficient", "0"},
-      {"moment", "", "moment coefficient about the quarter chord, nose up", "0"}};
+  return {{"span", "list",
+           "where the stations are, from the first where the beam begins to the last where it ends, in any "
+           "unit; keys below then may be lists of a number per station, linear in between",
+           "the same for all"},
+          {"file", "text", "CSV file with columns span and any keys below, beside the scene", "none"},
+          {"chord", "m", "chord"},
+          {"quarter_chord_y", "m",
+           "from the axis of the beam, or the line on the body, to the quarter chord, along the y axis of "
+           "the section",
+           "0"},
+          {"incidence", "rad", "of the chord against the y axis of the section, nose up", "0"},
+          {"lift_slope", "1/rad", "slope of the lift coefficient", "2 pi"},
+          {"zero_lift_angle", "rad", "angle of attack without lift", "0"},
+          {"drag", "", "drag coefficient", "0"},
+          {"moment", "", "moment coefficient about the quarter chord, nose up", "0"}};
+}
+
+/// A point of a line along which strips are placed, the axis of a beam or a straight line on a body, with the
+/// axes of the section there and the length that it stands for.
+struct SpanPoint {
+  double share = 0.0;  ///< 0 where the line begins, 1 where it ends
+  Combination position, y, z;
+  Expression width;
+};
+
+/// Sum of a factor times each of the combinations.
+Combination sum_of(const std::vector<std::pair<Expression, Combination>>& parts) {
+  Combination sum;
+  for (const auto& [factor, part] : parts) {
+    if (is_number(factor, 0.0)) continue;
+    for (const auto& [triple, weight] : part) {
+      const auto known =
+          std::find_if(sum.begin(), sum.end(), [t = triple](const auto& one) { return one.first == t; });
+      if (known == sum.end())
+        sum.emplace_back(triple, factor * weight);
+      else
+        known->second = known->second + factor * weight;
+    }
+  }
+  return sum;
+}
+
+/// The n Gauss points of every element of a beam, or of its part within `extent`.
+std::vector<SpanPoint> points_of_beam(const Draft& draft, const BeamDraft& beam, int n,
+                                      const std::array<double, 2>& extent) {
+  const BeamAxis& axis = *beam.axis;
+  std::vector<SpanPoint> points;
+  for (int e = 0; e < axis.elements; ++e) {
+    const double from = std::max(0.0, extent[0] * axis.elements - e);
+    const double to = std::min(1.0, extent[1] * axis.elements - e);
+    if (!(to > from)) continue;
+    for (const auto& [at, weight] : gauss_points(n)) {
+      const double xi = from + at * (to - from);
+      const ShapeFunctions shape = shape_functions(axis.degree, xi);
+      SpanPoint& point = points.emplace_back();
+      point.share = (e + xi) / axis.elements;
+      for (std::size_t a = 0; a < shape.value.size(); ++a) {
+        const int triple = draft.bodies[beam.first_body + axis.node(e, a)].triple;
+        point.position.emplace_back(triple, shape.value[a]);
+        point.y.emplace_back(triple + 2, shape.value[a]);
+        point.z.emplace_back(triple + 3, shape.value[a]);
+      }
+      point.width = Expression(weight * (to - from)) * axis.stretch(e, shape);
+    }
+  }
+  return points;
+}
+
+/// The n Gauss points of the part of the line within `extent`.
+std::vector<SpanPoint> points_of_body(const Draft& draft, const BodyLine& line, int n,
+                                      const std::array<double, 2>& extent) {
+  const ExpressionVector span = line.tip - line.root;
+  const Expression length = sqrt(dot(span, span));
+  std::vector<SpanPoint> points;
+  for (const auto& [at, weight] : gauss_points(n)) {
+    const double share = extent[0] + at * (extent[1] - extent[0]);
+    Combination position = draft.on_directors(line.body, line.root + Expression(share) * span);
+    position.emplace_back(draft.bodies[static_cast<std::size_t>(line.body)].triple, 1.0);
+    points.push_back({share, std::move(position), draft.on_directors(line.body, line.y),
+                      draft.on_directors(line.body, line.z),
+                      Expression(weight * (extent[1] - extent[0])) * length});
+  }
+  return points;
 }
 
 class StripReader {
@@ -75,7 +142,7 @@ class StripReader {
 
   double constant(const std::string& key, const Expression& e, const std::string& expected) {
     if (!e.is_constant()) table_.fail(key, expected + ", found an expression of parameters");
-    return e.evaluate(std::span<const double>());
+    return e.value();
   }
 
   void read_extent() {
@@ -132,11 +199,7 @@ class StripReader {
     draft_.require(table_, "wind",
                    "must be parallel to [frame] angular_velocity, or it turns in the frame and there is no "
                    "steady state; it is not",
-                   [&](std::size_t i) {
-                     const Eigen::Vector3d u = draft_.vector_at(wind, i);
-                     const Eigen::Vector3d w = draft_.vector_at(rotation, i);
-                     return w.cross(u).norm() <= 1e-12 * w.norm() * u.norm();
-                   });
+                   [&](std::size_t i) { return draft_.are_parallel(rotation, wind, 1e-12, i); });
   }
 
   std::vector<Strip> make_strips(const Strip& common) {
@@ -295,8 +358,7 @@ std::vector<FieldHelp> strips_fields() {
       {"root", "[x, y, z] m", "on a body: where the strips begin, in the body's axes", "none"},
       {"tip", "[x, y, z] m", "on a body: where they end", "none"},
       {"leading", "[x, y, z]",
-       "on a body: direction from trailing to leading edge; on a beam the y axis of "
-       "the section",
+       "on a body: direction from trailing to leading edge; on a beam the y axis of the section",
        "[0, 1, 0]"},
       {"lift", "[x, y, z]", "on a body: direction of lift; on a beam the z axis of the section", "[0, 0, 1]"},
       {"wind", "[x, y, z] m/s", "velocity of the air; in a rotating frame parallel to its axis", "[0, 0, 0]"},
@@ -306,8 +368,7 @@ std::vector<FieldHelp> strips_fields() {
       {"inflow", "name of an inflow", "the [[inflow]] of the rotor", "none"},
       {"polar", "text",
        "CSV file with the angle of attack, `alpha [deg]`, and columns lift, drag, moment: coefficients in "
-       "place of "
-       "lift_slope and zero_lift_angle",
+       "place of lift_slope and zero_lift_angle",
        "none"}};
   for (FieldHelp& field : station_fields()) fields.push_back(std::move(field));
   return fields;

@@ -57,9 +57,7 @@ class BeamReader {
   void check_across(const std::array<BeamEnd, 2>& ends, const ExpressionVector& y) {
     const ExpressionVector chord = ends[1].position - ends[0].position;
     for (std::size_t i = 0; i < draft_.check_at.size(); ++i) {
-      const Eigen::Vector3d a = draft_.vector_at(chord, i);
-      const Eigen::Vector3d b = draft_.vector_at(y, i);
-      if (a.cross(b).norm() > 1e-9 * a.norm() * b.norm()) continue;
+      if (!draft_.are_parallel(chord, y, 1e-9, i)) continue;
       table_.fail("y_axis", "must not be parallel to the beam; it is" + Draft::where_on_trace(i) +
                                 ". It is the direction of the y axis of the sections, [0, 1, 0] by default");
     }
@@ -144,11 +142,10 @@ std::vector<FieldHelp> beam_fields() {
 }
 
 std::vector<FieldHelp> beam_damping_fields() {
-  return {
-      {"beam", "name of a beam", "the beam"},
-      {"time", "s",
-       "stresses are the stiffness times this times the rates of the strains; or six times, of extension, "
-       "shear along y and z, twist, bending about y and z"}};
+  return {{"beam", "name of a beam", "the beam"},
+          {"time", "s",
+           "stresses are the stiffness times this times the rates of the strains; or six times, of "
+           "extension, shear along y and z, twist, bending about y and z"}};
 }
 
 }  // namespace eigentrail

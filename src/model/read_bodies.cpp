@@ -60,12 +60,7 @@ ExpressionRotation read_axes(Draft& draft, TableReader& table, const std::vector
     axes[i] = draft.read_vector(table, keys[given[i]], any_unit, Range::positive);
   }
   draft.require(table, keys[given[1]], "must not be parallel to " + keys[given[0]] + "; it is",
-                [&](std::size_t i) {
-                  const Eigen::Vector3d a = draft.vector_at(axes[0], i);
-                  const Eigen::Vector3d b = draft.vector_at(axes[1], i);
-                  // Sine of the angle between the axes.
-                  return a.cross(b).norm() > 1e-9 * a.norm() * b.norm();
-                });
+                [&](std::size_t i) { return !draft.are_parallel(axes[0], axes[1], 1e-9, i); });
   const ExpressionVector first = normalized(axes[0]);
   const ExpressionVector second = normalized(axes[1] - dot(axes[1], first) * first);
   const std::size_t last = 3 - given[0] - given[1];

@@ -292,8 +292,7 @@ const std::vector<ConstraintKind>& constraint_kinds() {
        "linear relation of joints: the sum of ratio times motion is zero",
        {{"joints", "list of joints",
          "two or more; the motion is the angle (rad) or the displacement (m) from the starting guess; "
-         "NAME.slide "
-         "of a cylindrical joint, NAME.axis and NAME.cross_axis of a universal one"},
+         "NAME.slide of a cylindrical joint, NAME.axis and NAME.cross_axis of a universal one"},
         {"ratios", "list", "a number for each"}},
        read_coupler},
       {"gear",

@@ -149,27 +149,24 @@ void add_annulus(Draft& draft, const TableReader& table, InflowDraft& inflow, St
 }
 
 std::vector<FieldHelp> inflow_fields() {
-  return {
-      {"name", "text", "what [[strips]] call it"},
-      {"model", "\"uniform\", \"annular\" or \"pitt_peters\"",
-       "mean inflow alone, by momentum theory with the inertia of the air; or the same for the annulus of "
-       "every strip; or mean inflow with gradients over the disc, three states",
-       "pitt_peters"},
-      {"radius", "m", "of the rotor"},
-      {"centre", "[x, y, z] m", "of the rotor, in the frame", "[0, 0, 0]"},
-      {"axis", "[x, y, z]", "of the rotor, in the frame, in the direction of thrust", "[0, 0, 1]"},
-      {"wind", "[x, y, z] m/s",
-       "velocity of the air along the axis: against it in climb, along it at a "
-       "turbine",
-       "[0, 0, 0]"},
-      {"blades", "",
-       "with uniform and annular inflow, and without [rotor]: the number of blades for which every strip "
-       "stands",
-       "1"},
-      {"tip_loss", "true or false", "of annular inflow: Prandtl's loss at the tips", "false"},
-      {"density", "kg/m^3", "density of the air", "1.225"},
-      {"guess", "m/s", "of the mean inflow, from which the equilibrium is found",
-       "by speeds of tips and wind"}};
+  return {{"name", "text", "what [[strips]] call it"},
+          {"model", "\"uniform\", \"annular\" or \"pitt_peters\"",
+           "mean inflow alone, by momentum theory with the inertia of the air; or the same for the annulus "
+           "of every strip; or mean inflow with gradients over the disc, three states",
+           "pitt_peters"},
+          {"radius", "m", "of the rotor"},
+          {"centre", "[x, y, z] m", "of the rotor, in the frame", "[0, 0, 0]"},
+          {"axis", "[x, y, z]", "of the rotor, in the frame, in the direction of thrust", "[0, 0, 1]"},
+          {"wind", "[x, y, z] m/s",
+           "velocity of the air along the axis: against it in climb, along it at a turbine", "[0, 0, 0]"},
+          {"blades", "",
+           "with uniform and annular inflow, and without [rotor]: the number of blades for which every strip "
+           "stands",
+           "1"},
+          {"tip_loss", "true or false", "of annular inflow: Prandtl's loss at the tips", "false"},
+          {"density", "kg/m^3", "density of the air", "1.225"},
+          {"guess", "m/s", "of the mean inflow, from which the equilibrium is found",
+           "by speeds of tips and wind"}};
 }
 
 }  // namespace eigentrail

@@ -10,7 +10,6 @@
 #include "eigentrail/scene/limits.hpp"
 #include "model/affine_factor.hpp"
 #include "model/beside_scene.hpp"
-#include "model/compressed_rows.hpp"
 #include "model/draft.hpp"
 #include "model/expression_terms.hpp"
 #include "model/family_tables.hpp"
@@ -143,7 +142,7 @@ class FamilyReader {
       for (Eigen::Index c = 0; c < n_columns; ++c) {
         const Expression& entry = row[static_cast<std::size_t>(c)];
         if (entry.is_constant()) {
-          constant(r, c) = entry.evaluate(std::span<const double>());
+          constant(r, c) = entry.value();
         } else {
           draft.check_range(table, key, entry, Range::any);
           expressions.add(r, c, entry);
@@ -157,12 +156,14 @@ class FamilyReader {
 
   Expression factor_of_power(int power) {
     if (power > 0) draft.used.insert(variable_);
-    return power_of_parameter(variable_, power);
+    Expression result = 1.0;
+    for (int i = 0; i < power; ++i) result = result * Expression::of_parameter(variable_);
+    return result;
   }
 
   Expression factor(const std::string& key, const std::string& name) {
     const std::string path = path_of(key, name);
-    if (const std::optional<int> power = power_in(name)) {
+    if (const std::optional<int> power = parsed_number<int>(name)) {
       if (*power < 0 || *power > max_power)
         fail("file", "dataset " + path + ": expected a power from 0 to " + std::to_string(max_power));
       return factor_of_power(*power);

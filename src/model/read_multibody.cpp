@@ -163,13 +163,10 @@ std::optional<ExpressionVector> read_field(Draft& draft, const std::string& key,
 /// is no steady state.
 void check_gravity(const Draft& draft, const ExpressionVector& rotation, const ExpressionVector& gravity) {
   for (std::size_t i = 0; i < draft.request.check_at.size(); ++i) {
-    const Eigen::Vector3d w = draft.vector_at(rotation, i);
-    const Eigen::Vector3d g = draft.vector_at(gravity, i);
-    if (w.cross(g).norm() <= 1e-12 * w.norm() * g.norm()) continue;
-    throw scene_error(
-        draft.scene, tables(draft.scene, "gravity")[0]->find("acceleration")->where,
-        "[gravity] acceleration: must be parallel to [frame] angular_velocity, or it turns in the frame "
-        "and there is no steady state");
+    if (draft.are_parallel(rotation, gravity, 1e-12, i)) continue;
+    throw scene_error(draft.scene, tables(draft.scene, "gravity")[0]->find("acceleration")->where,
+                      "[gravity] acceleration: must be parallel to [frame] angular_velocity, or it turns in "
+                      "the frame and there is no steady state");
   }
 }
 
@@ -285,20 +282,7 @@ ModelDescription describe(const Draft& draft) {
   return description;
 }
 
-}  // namespace
-
-static std::unique_ptr<Model> read_into(Draft& draft);
-
-std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& request) {
-  Draft draft(scene, request);
-  try {
-    return read_into(draft);
-  } catch (const ExpressionError& error) {
-    throw scene_error(scene, draft.begun_where, draft.begun + ": " + error.what());
-  }
-}
-
-static std::unique_ptr<Model> read_into(Draft& draft) {
+std::unique_ptr<Model> read_into(Draft& draft) {
   const Scene& scene = draft.scene;
   read_points(draft);
   read_bodies(draft);
@@ -326,10 +310,9 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   read_air(draft, rotation, inflows);
   read_trims(draft, inflows);
   if (rotation && !draft.rotor && !tables(scene, "spinning_disc").empty()) {
-    throw scene_error(
-        scene, tables(scene, "spinning_disc")[0]->where,
-        "[[spinning_disc]]: not together with [frame]; in a rotating frame the gyroscopic moments "
-        "come from the inertia of the body itself");
+    throw scene_error(scene, tables(scene, "spinning_disc")[0]->where,
+                      "[[spinning_disc]]: not together with [frame]; in a rotating frame the gyroscopic "
+                      "moments come from the inertia of the body itself");
   }
   std::vector<int> unused = unused_parameters(scene, draft.used);
   draft.data.parameters = draft.parameters();
@@ -341,6 +324,17 @@ static std::unique_ptr<Model> read_into(Draft& draft) {
   if (draft.rotor) return make_bladed_rotor(draft, std::move(description), rotor_speed(draft, rotation));
   return std::make_unique<Multibody>(std::move(description), Assembly(std::move(draft.data)),
                                      std::move(draft.guess));
+}
+
+}  // namespace
+
+std::unique_ptr<Model> read_multibody(const Scene& scene, const ModelRequest& request) {
+  Draft draft(scene, request);
+  try {
+    return read_into(draft);
+  } catch (const ExpressionError& error) {
+    throw scene_error(scene, draft.begun_where, draft.begun + ": " + error.what());
+  }
 }
 
 }  // namespace eigentrail

@@ -36,7 +36,7 @@ std::vector<std::size_t> read_kinks(TableReader& table, const SampledData& data,
   if (!table.has("kinks")) return places;
   for (const Expression& expression : table.list("kinks")) {
     if (!expression.is_constant()) table.fail("kinks", "expected numbers, found an expression");
-    const double kink = expression.evaluate(std::span<const double>()) * factor;
+    const double kink = expression.value() * factor;
     const auto nearest = std::min_element(data.values.begin(), data.values.end(), [kink](double a, double b) {
       return std::abs(a - kink) < std::abs(b - kink);
     });

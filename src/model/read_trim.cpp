@@ -28,13 +28,12 @@ constexpr std::array<QuantityKind, 5> quantity_kinds = {
      {"position", "place, axis", "m"}}};
 
 std::string list_of_quantities() {
-  std::string list;
-  for (const QuantityKind& kind : quantity_kinds)
-    list += (list.empty() ? "" : ", ") + std::string(kind.name) + "(" + std::string(kind.arguments) + ")";
-  return list;
+  return joined(quantity_kinds, ", ", [](const QuantityKind& kind) {
+    return std::string(kind.name) + "(" + std::string(kind.arguments) + ")";
+  });
 }
 
-ConditionText split(const TableReader& table, std::string_view text) {
+ConditionText parts_of_condition(const TableReader& table, std::string_view text) {
   const std::size_t equals = text.find('='), open = text.find('('), close = text.find(')');
   const bool in_order = open < close && close < equals && equals != std::string_view::npos &&
                         trimmed(text.substr(close + 1, equals - close - 1)).empty();
@@ -43,12 +42,8 @@ ConditionText split(const TableReader& table, std::string_view text) {
                                 "\"; quantities are " + list_of_quantities());
   ConditionText parts{
       std::string(trimmed(text.substr(0, open))), {}, std::string(trimmed(text.substr(equals + 1)))};
-  std::string_view inside = text.substr(open + 1, close - open - 1);
-  for (std::size_t comma = inside.find(','); comma != std::string_view::npos; comma = inside.find(',')) {
-    parts.arguments.emplace_back(trimmed(inside.substr(0, comma)));
-    inside.remove_prefix(comma + 1);
-  }
-  parts.arguments.emplace_back(trimmed(inside));
+  for (const std::string& argument : split(std::string(text.substr(open + 1, close - open - 1)), ','))
+    parts.arguments.emplace_back(trimmed(argument));
   return parts;
 }
 
@@ -61,7 +56,7 @@ class TrimReader {
     const std::string name = table.text("unknown");
     trim.parameter = unknown(table, name);
     trim.text = printable(table.text("condition"));
-    const ConditionText parts = split(table, trim.text);
+    const ConditionText parts = parts_of_condition(table, trim.text);
     const auto kind = std::find_if(quantity_kinds.begin(), quantity_kinds.end(),
                                    [&](const QuantityKind& k) { return k.name == parts.quantity; });
     if (kind == quantity_kinds.end())
@@ -93,8 +88,7 @@ class TrimReader {
   }
 
   /// Lets read(reader, "condition") read a part of the condition, with its place in the file.
-  template <class Read>
-  auto read_part(const TableReader& table, const std::string& text, Read read) {
+  auto read_part(const TableReader& table, const std::string& text, auto read) {
     Table part;
     part.where = draft_.begun_where;
     part.entries.emplace_back("condition", Value{text, draft_.begun_where});

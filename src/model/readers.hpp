@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "model/span_line.hpp"
+#include "model/draft.hpp"
 
 namespace eigentrail {
 
@@ -33,6 +33,12 @@ std::vector<ConstraintRow> read_gear(Draft& draft, TableReader& table, JointMoti
 /// the angular velocity of the frame.
 void read_strips(Draft& draft, const std::optional<ExpressionVector>& rotation);
 std::vector<FieldHelp> strip_fields();
+
+/// A straight line on a body, with directions in the body's axes.
+struct BodyLine {
+  int body = 0;
+  ExpressionVector root, tip, y, z;
+};
 
 /// Reads the line on a body along which strips are: from `root` to `tip`, y the direction `leading` and z the
 /// part of `lift` across it. `usual_axes`: those of leading and lift by default; absent: they are required.

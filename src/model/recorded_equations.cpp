@@ -152,8 +152,7 @@ class BatchCollector {
   }
 
   /// Calls visit(entry, row, column) for the entries of all elements of a batch.
-  template <class Visit>
-  static void for_each_entry(const Batch& batch, Visit visit) {
+  static void for_each_entry(const Batch& batch, auto visit) {
     const auto n = static_cast<std::size_t>(batch.record.n_coordinates);
     for (std::size_t element = 0; element < batch.size; ++element) {
       const auto coordinate = [&](int i) {

@@ -55,8 +55,7 @@ struct ElementTable {
   }
 
   /// Calls visit(list, index) for the list of every kind, in the order of the registry.
-  template <class Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     std::size_t index = 0;
     std::apply([&](const auto&... list) { (visit(list, index++), ...); }, lists);
   }

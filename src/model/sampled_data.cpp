@@ -83,8 +83,7 @@ void check_values(const std::vector<double>& values) {
        "; leave one of them out");
 }
 
-template <class List>
-void check_length(const List& list, const char* name, Eigen::Index n) {
+void check_length(const auto& list, const char* name, Eigen::Index n) {
   if (!list.empty() && static_cast<Eigen::Index>(list.size()) != n)
     fail(std::string(name) + " has " + plural(list.size(), "entry") + "; expected " + std::to_string(n));
 }

@@ -36,8 +36,7 @@ class SeriesSum {
 
   /// Adds `factor` times a matrix of doubles. Coefficients that no factor has are not made: zero matrices
   /// would cost as much as others.
-  template <class Storage>
-  void add(const Factor& factor, const Storage& matrix) {
+  void add(const Factor& factor, const auto& matrix) {
     using std::isfinite;
     for (int k = 0; k <= order_; ++k) {
       finite_ = finite_ && isfinite(factor[k]);

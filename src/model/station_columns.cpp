@@ -87,7 +87,7 @@ void StationColumns::read_span() {
   span_.clear();
   for (const Expression& e : list("span", {})) {
     if (!e.is_constant()) table_.fail("span", "expected numbers, found an expression of parameters");
-    span_.push_back(e.evaluate(std::span<const double>()));
+    span_.push_back(e.value());
     const std::size_t n = span_.size();
     if (!std::isfinite(span_.back()) || (n > 1 && !(span_[n - 1] > span_[n - 2])))
       table_.fail("span", "expected numbers that increase from station to station");

@@ -30,17 +30,13 @@ bool continues_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-bool is_binary(Op op) {
-  return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::power;
-}
-
 /// Largest number of values on the stack during evaluation of postfix code.
 int stack_depth(const std::vector<Expression::Instruction>& code) {
   int depth = 0;
   int most = 0;
   for (const Expression::Instruction& i : code) {
     const bool pushes = i.op == Op::number || i.op == Op::parameter;
-    depth += pushes ? 1 : is_binary(i.op) ? -1 : 0;
+    depth += pushes ? 1 : Expression::is_binary(i.op) ? -1 : 0;
     most = std::max(most, depth);
   }
   return most;
@@ -74,48 +70,30 @@ class ExpressionParser {
   void sum() {
     if (++depth_ > max_depth) fail("parentheses nested deeper than " + std::to_string(max_depth));
     product();
-    for (;;) {
-      if (accept('+')) {
-        product();
-        emit(Op::add);
-      } else if (accept('-')) {
-        product();
-        emit(Op::subtract);
-      } else {
-        break;
-      }
+    while (accept('+') || accept('-')) {
+      const Op op = accepted() == '+' ? Op::add : Op::subtract;
+      product();
+      emit(op);
     }
     --depth_;
   }
 
   void product() {
     with_sign();
-    for (;;) {
-      if (accept('*')) {
-        if (accept('*')) {
-          at_ -= 2;
-          fail("powers are written with '^', as in x^2, not with '**'");
-        }
-        with_sign();
-        emit(Op::multiply);
-      } else if (accept('/')) {
-        with_sign();
-        emit(Op::divide);
-      } else {
-        return;
+    while (accept('*') || accept('/')) {
+      const Op op = accepted() == '*' ? Op::multiply : Op::divide;
+      if (op == Op::multiply && accept('*')) {
+        at_ -= 2;
+        fail("powers are written with '^', as in x^2, not with '**'");
       }
+      with_sign();
+      emit(op);
     }
   }
 
   void with_sign() {
     bool negative = false;
-    for (;;) {
-      if (accept('-')) {
-        negative = !negative;
-      } else if (!accept('+')) {
-        break;
-      }
-    }
+    while (accept('-') || accept('+')) negative = negative != (accepted() == '-');
     power();
     if (negative) emit(Op::negate);
   }
@@ -222,7 +200,7 @@ class ExpressionParser {
   }
 
   void emit(Op op) {
-    if (is_binary(op)) --stack_;
+    if (Expression::is_binary(op)) --stack_;
     result_.code_.push_back({op});
   }
 
@@ -239,6 +217,8 @@ class ExpressionParser {
     ++at_;
     return true;
   }
+  /// The character that was accepted last.
+  char accepted() const { return text_[at_ - 1]; }
   [[noreturn]] void fail(const std::string& message) const { throw ExpressionError(message, at_); }
 
   std::string_view text_;
@@ -253,15 +233,8 @@ Expression Expression::parse(std::string_view text, const std::vector<std::strin
   return ExpressionParser(text, names).parse();
 }
 
-Expression Expression::of_parameter(int index) {
-  Expression result;
-  result.code_ = {{Op::parameter, 0.0, index}};
-  result.parameters_ = {index};
-  return result;
-}
-
 Expression Expression::folded() const {
-  return is_constant() ? Expression(evaluate(std::span<const double>())) : *this;
+  return is_constant() ? Expression(value()) : *this;
 }
 
 Expression Expression::compose(Op op, const Expression& a) {
@@ -285,27 +258,6 @@ Expression Expression::compose(Op op, const Expression& a, const Expression& b) 
         0);
   }
   return result.folded();
-}
-
-Expression operator+(const Expression& a, const Expression& b) {
-  if (a.is(0.0)) return b;
-  return b.is(0.0) ? a : Expression::compose(Op::add, a, b);
-}
-
-Expression operator-(const Expression& a, const Expression& b) {
-  if (a.is(0.0)) return -b;
-  return b.is(0.0) ? a : Expression::compose(Op::subtract, a, b);
-}
-
-Expression operator*(const Expression& a, const Expression& b) {
-  if (a.is(0.0) || b.is(0.0)) return {0.0};
-  if (a.is(1.0)) return b;
-  return b.is(1.0) ? a : Expression::compose(Op::multiply, a, b);
-}
-
-Expression operator/(const Expression& a, const Expression& b) {
-  if (a.is(0.0)) return {0.0};
-  return b.is(1.0) ? a : Expression::compose(Op::divide, a, b);
 }
 
 }  // namespace eigentrail

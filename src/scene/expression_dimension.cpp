@@ -36,31 +36,18 @@ class DimensionWalk {
 
   Part walk(const Expression& expression) {
     for (const Expression::Instruction& i : expression.code()) {
-      switch (i.op) {
-        case Op::number:
-          push({Kind::number, {}, i.number});
-          break;
-        case Op::parameter:
-          push(parameter(i.parameter));
-          break;
-        case Op::negate:
-          stack_.back().number = -stack_.back().number;
-          break;
-        case Op::integer_power:
-          push(power(pop(), i.number));
-          break;
-        case Op::sqrt:
-          push(power(pop(), 0.5));
-          break;
-        case Op::add:
-        case Op::subtract:
-        case Op::multiply:
-        case Op::divide:
-        case Op::power:
-          binary(i.op);
-          break;
-        default:
-          function();
+      if (i.op == Op::number) {
+        push({Kind::number, {}, i.number});
+      } else if (i.op == Op::parameter) {
+        push(parameter(i.parameter));
+      } else if (i.op == Op::negate) {
+        stack_.back().number = -stack_.back().number;
+      } else if (i.op == Op::integer_power || i.op == Op::sqrt) {
+        push(power(pop(), i.op == Op::sqrt ? 0.5 : i.number));
+      } else if (Expression::is_binary(i.op)) {
+        binary(i.op);
+      } else {
+        function();
       }
     }
     return pop();

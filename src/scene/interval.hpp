@@ -54,8 +54,7 @@ struct Interval {
 };
 
 /// The image under an increasing function.
-template <class Function>
-Interval increasing(const Interval& x, Function f) {
+Interval increasing(const Interval& x, auto f) {
   return {f(x.lower), f(x.upper)};
 }
 
@@ -79,16 +78,13 @@ inline Interval atan(const Interval& x) {
   return increasing(x, [](double t) { return std::atan(t); });
 }
 inline Interval log(const Interval& x) {
-  if (!(x.lower > 0.0)) return Interval::all();
-  return increasing(x, [](double t) { return std::log(t); });
+  return x.lower > 0.0 ? increasing(x, [](double t) { return std::log(t); }) : Interval::all();
 }
 inline Interval sqrt(const Interval& x) {
-  if (!(x.lower > 0.0)) return Interval::all();
-  return increasing(x, [](double t) { return std::sqrt(t); });
+  return x.lower > 0.0 ? increasing(x, [](double t) { return std::sqrt(t); }) : Interval::all();
 }
 inline Interval asin(const Interval& x) {
-  if (!(x.magnitude() < 1.0)) return Interval::all();
-  return increasing(x, [](double t) { return std::asin(t); });
+  return x.magnitude() < 1.0 ? increasing(x, [](double t) { return std::asin(t); }) : Interval::all();
 }
 inline Interval acos(const Interval& x) {
   if (!(x.magnitude() < 1.0)) return Interval::all();

@@ -66,8 +66,7 @@ const Parameter& Parameters::at(std::string_view name) const {
 Vector Parameters::declared_values() const {
   Vector values(static_cast<Eigen::Index>(size()));
   for (std::size_t i = 0; i < size(); ++i) values[static_cast<Eigen::Index>(i)] = list_[i].value;
-  Vector si = values;
-  to_si(std::span<double>(si.data(), size()));
+  const Vector si = in_si(values);
   for (const int i : derived_order_) values[i] = si[i] / list_[i].factor;
   return values;
 }
@@ -83,10 +82,6 @@ std::set<int> Parameters::with_definitions(const std::set<int>& parameters) cons
     open.insert(open.end(), used.begin(), used.end());
   }
   return reached;
-}
-
-bool Parameters::depends_on(int parameter, int traced) const {
-  return with_definitions({parameter}).contains(traced);
 }
 
 bool Parameters::depends_on(const Expression& expression, int traced) const {

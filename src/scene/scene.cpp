@@ -6,6 +6,7 @@
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/expression_dimension.hpp"
 #include "eigentrail/scene/limits.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "scene/read_parameters.hpp"
 
 namespace eigentrail {
@@ -39,11 +40,9 @@ void set_start_of_trace(Scene& scene, const std::string& name) {
   if (trace.find("from") == nullptr) return;
   std::set<int> used;
   const Expression from = TableReader(scene, trace, "[trace]", used).expression("from");
-  Vector values = scene.parameters.declared_values();
-  scene.parameters.to_si(std::span<double>(values.data(), scene.parameters.size()));
   std::vector<Parameter> list = scene.parameters.list();
   list[static_cast<std::size_t>(*scene.parameters.index(name))].value =
-      from.evaluate(std::span<const double>(values.data(), list.size()));
+      from.value(scene.parameters.in_si(scene.parameters.declared_values()));
   scene.parameters = Parameters(std::move(list));
 }
 
@@ -56,9 +55,8 @@ const T& as(const TableReader& reader, const Value& value, const std::string& ke
 }
 
 /// The items of a list that is not too long, or a single value, each as what `make` makes of it.
-template <class Make>
 auto items_of(const TableReader& reader, const Value& value, const std::string& key, const char* what,
-              const Make& make) {
+              const auto& make) {
   const auto* array = std::get_if<Array>(&value.data);
   std::vector<std::decay_t<decltype(make(value))>> result;
   if (array == nullptr) {
@@ -102,16 +100,9 @@ Scene parse_scene(std::string text, const std::string& path, bool generated) {
   return scene;
 }
 
-TableReader::TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used)
-    : scene_(scene), table_(table), label_(std::move(label)), used_(used) {}
-
 const Value* TableReader::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return table_.find(key);
-}
-
-bool TableReader::has(const std::string& key) {
-  return find(key) != nullptr;
 }
 
 const Value& TableReader::require(const std::string& key, const std::string& expected) {
@@ -167,10 +158,6 @@ void TableReader::check_dimension(const Expression& expression, const std::strin
   }
 }
 
-Expression TableReader::expression(const std::string& key, WantedUnit unit) {
-  return to_expression(require(key, "a number or an expression"), key, unit);
-}
-
 Expression TableReader::expression_or(const std::string& key, double otherwise, WantedUnit unit) {
   const Value* value = find(key);
   return value == nullptr ? Expression(otherwise) : to_expression(*value, key, unit);
@@ -185,10 +172,6 @@ std::array<Expression, 3> TableReader::to_vector(const Value& value, const std::
   }
   return {to_expression((*items)[0], key, unit), to_expression((*items)[1], key, unit),
           to_expression((*items)[2], key, unit)};
-}
-
-std::array<Expression, 3> TableReader::vector(const std::string& key, WantedUnit unit) {
-  return to_vector(require(key, "three numbers or expressions [x, y, z]"), key, unit);
 }
 
 NameOrPosition TableReader::name_or_position(const std::string& key, WantedUnit unit) {
@@ -215,7 +198,7 @@ bool TableReader::flag(const std::string& key) {
 
 int TableReader::whole_number(const std::string& key, int least, int most) {
   const Expression found = expression(key);
-  const double value = found.is_constant() ? found.evaluate(std::span<const double>()) : NAN;
+  const double value = found.is_constant() ? found.value() : NAN;
   if (!(value >= least && value <= most) || value != std::floor(value))
     fail(key, "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(value);
@@ -331,6 +314,30 @@ std::vector<int> unused_parameters(const Scene& scene, const std::set<int>& used
     }
   }
   return unused;
+}
+
+std::string traced_parameter(const Scene& scene) {
+  for (const Table* trace : tables(scene, "trace")) {
+    const Value* value = trace->find("parameter");
+    const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+    if (name != nullptr) return *name;
+  }
+  return "";
+}
+
+std::vector<std::string> trimmed_parameters(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Table* trim : tables(scene, "trim")) {
+    const Value* unknown = trim->find("unknown");
+    const auto* name = unknown == nullptr ? nullptr : std::get_if<std::string>(&unknown->data);
+    if (name != nullptr) names.push_back(*name);
+  }
+  return names;
+}
+
+bool is_trimmed(const Scene& scene, const std::string& parameter) {
+  const std::vector<std::string> names = trimmed_parameters(scene);
+  return std::find(names.begin(), names.end(), parameter) != names.end();
 }
 
 }  // namespace eigentrail

@@ -58,11 +58,8 @@ class ForceModel final : public Model {
   Vector initial_guess(const Vector&) const override { return guess_; }
 
   Structure structure(int) const override {
-    const Contribution& parts = description().effects.front().contribution;
     Structure structure;
-    structure.damped = parts.dissipative;
-    structure.gyroscopic = parts.gyroscopic;
-    structure.circulatory = parts.circulatory;
+    structure.add(description().effects.front().contribution);
     return structure;
   }
 

@@ -61,6 +61,13 @@ struct Structure {
   bool fixed_equilibrium = false;     ///< x0 and lambda0 do not change: KINSOL is called once at most
   bool known_equilibrium = false;     ///< the initial guess is the equilibrium: KINSOL is never called
 
+  /// Adds what forces contribute.
+  void add(const Contribution& part) {
+    damped = damped || part.dissipative;
+    gyroscopic = gyroscopic || part.gyroscopic;
+    circulatory = circulatory || part.circulatory;
+  }
+
   /// Whether with s also -conj(s) is an eigenvalue: without damping, if there are no gyroscopic terms or the
   /// system is Hamiltonian.
   bool reflects_spectrum() const { return !damped && (!gyroscopic || (symmetric_mass && !circulatory)); }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "eigentrail/core/series.hpp"
+#include "eigentrail/core/types.hpp"
 
 namespace eigentrail {
 
@@ -70,8 +71,18 @@ class Expression {
   /// Whether both are the same sequence of operations, not whether they are equal as functions.
   bool operator==(const Expression& other) const { return code_ == other.code_; }
 
+  /// Whether an operation takes two operands.
+  static constexpr bool is_binary(Op op) {
+    return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::power;
+  }
+
   /// The parameter with this index.
-  static Expression of_parameter(int index);
+  static Expression of_parameter(int index) {
+    Expression result;
+    result.code_ = {{Op::parameter, 0.0, index}};
+    result.parameters_ = {index};
+    return result;
+  }
 
   /// Compiles `text`; a name in it denotes the parameter at the same index of `names`. Throws ExpressionError
   /// with the offset of the fault.
@@ -87,6 +98,11 @@ class Expression {
   template <class Scalar, class MakeNumber = Number<Scalar>>
   Scalar evaluate(std::span<const Scalar> parameters, MakeNumber number = {}) const;
 
+  /// The same for numbers; a constant needs none.
+  double value(const Vector& si = {}) const {
+    return evaluate(std::span<const double>(si.data(), static_cast<std::size_t>(si.size())));
+  }
+
   bool is_constant() const { return parameters_.empty(); }
 
   /// Its instructions in postfix notation: operands before their operation.
@@ -101,10 +117,23 @@ class Expression {
   // Composition. Constant results are computed at once, and sums with zero and products with zero or one
   // produce no instructions. All throw ExpressionError if the result needs a deeper stack than `max_stack`,
   // or has more than limits::expression_operations instructions.
-  friend Expression operator+(const Expression& a, const Expression& b);
-  friend Expression operator-(const Expression& a, const Expression& b);
-  friend Expression operator*(const Expression& a, const Expression& b);
-  friend Expression operator/(const Expression& a, const Expression& b);
+  friend Expression operator+(const Expression& a, const Expression& b) {
+    if (a.is(0.0)) return b;
+    return b.is(0.0) ? a : compose(Op::add, a, b);
+  }
+  friend Expression operator-(const Expression& a, const Expression& b) {
+    if (a.is(0.0)) return -b;
+    return b.is(0.0) ? a : compose(Op::subtract, a, b);
+  }
+  friend Expression operator*(const Expression& a, const Expression& b) {
+    if (a.is(0.0) || b.is(0.0)) return {0.0};
+    if (a.is(1.0)) return b;
+    return b.is(1.0) ? a : compose(Op::multiply, a, b);
+  }
+  friend Expression operator/(const Expression& a, const Expression& b) {
+    if (a.is(0.0)) return {0.0};
+    return b.is(1.0) ? a : compose(Op::divide, a, b);
+  }
   friend Expression operator-(const Expression& a) { return compose(Op::negate, a); }
   friend Expression sin(const Expression& a) { return compose(Op::sin, a); }
   friend Expression cos(const Expression& a) { return compose(Op::cos, a); }
@@ -128,51 +157,31 @@ Scalar apply(Expression::Op op, const Scalar& x) {
   // Standard functions for numbers; argument-dependent lookup finds those for series.
   using std::acos, std::asin, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh,
       std::sqrt, std::tan, std::tanh;
-  switch (op) {
-    case Expression::Op::negate:
-      return -x;
-    case Expression::Op::sqrt:
-      return sqrt(x);
-    case Expression::Op::sin:
-      return sin(x);
-    case Expression::Op::cos:
-      return cos(x);
-    case Expression::Op::tan:
-      return tan(x);
-    case Expression::Op::asin:
-      return asin(x);
-    case Expression::Op::acos:
-      return acos(x);
-    case Expression::Op::atan:
-      return atan(x);
-    case Expression::Op::sinh:
-      return sinh(x);
-    case Expression::Op::cosh:
-      return cosh(x);
-    case Expression::Op::tanh:
-      return tanh(x);
-    case Expression::Op::exp:
-      return exp(x);
-    default:
-      return log(x);
-  }
+  using Op = Expression::Op;
+  if (op == Op::negate) return -x;
+  if (op == Op::sqrt) return sqrt(x);
+  if (op == Op::sin) return sin(x);
+  if (op == Op::cos) return cos(x);
+  if (op == Op::tan) return tan(x);
+  if (op == Op::asin) return asin(x);
+  if (op == Op::acos) return acos(x);
+  if (op == Op::atan) return atan(x);
+  if (op == Op::sinh) return sinh(x);
+  if (op == Op::cosh) return cosh(x);
+  if (op == Op::tanh) return tanh(x);
+  if (op == Op::exp) return exp(x);
+  return log(x);
 }
 
 template <class Scalar>
 Scalar apply(Expression::Op op, const Scalar& a, const Scalar& b) {
   using std::pow;
-  switch (op) {
-    case Expression::Op::add:
-      return a + b;
-    case Expression::Op::subtract:
-      return a - b;
-    case Expression::Op::multiply:
-      return a * b;
-    case Expression::Op::divide:
-      return a / b;
-    default:
-      return pow(a, b);
-  }
+  using Op = Expression::Op;
+  if (op == Op::add) return a + b;
+  if (op == Op::subtract) return a - b;
+  if (op == Op::multiply) return a * b;
+  if (op == Op::divide) return a / b;
+  return pow(a, b);
 }
 
 }  // namespace detail
@@ -183,26 +192,17 @@ Scalar Expression::evaluate(std::span<const Scalar> parameters, MakeNumber numbe
   std::array<Scalar, max_stack> stack{};
   int top = -1;
   for (const Instruction& i : code_) {
-    switch (i.op) {
-      case Op::number:
-        stack[++top] = number(i.number);
-        break;
-      case Op::parameter:
-        stack[++top] = parameters[i.parameter];
-        break;
-      case Op::integer_power:
-        stack[top] = integer_power(stack[top], static_cast<int>(i.number));
-        break;
-      case Op::add:
-      case Op::subtract:
-      case Op::multiply:
-      case Op::divide:
-      case Op::power:
-        --top;
-        stack[top] = detail::apply(i.op, stack[top], stack[top + 1]);
-        break;
-      default:
-        stack[top] = detail::apply(i.op, stack[top]);
+    if (i.op == Op::number) {
+      stack[++top] = number(i.number);
+    } else if (i.op == Op::parameter) {
+      stack[++top] = parameters[i.parameter];
+    } else if (i.op == Op::integer_power) {
+      stack[top] = integer_power(stack[top], static_cast<int>(i.number));
+    } else if (is_binary(i.op)) {
+      --top;
+      stack[top] = detail::apply(i.op, stack[top], stack[top + 1]);
+    } else {
+      stack[top] = detail::apply(i.op, stack[top]);
     }
   }
   return stack[0];

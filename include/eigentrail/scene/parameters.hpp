@@ -67,8 +67,14 @@ class Parameters {
     }
   }
 
+  /// Declared values of all parameters in SI units, with the derived ones computed.
+  Vector in_si(Vector declared) const {
+    to_si(std::span<double>(declared.data(), size()));
+    return declared;
+  }
+
   /// Whether `parameter` is `traced` or depends on it, directly or through others.
-  bool depends_on(int parameter, int traced) const;
+  bool depends_on(int parameter, int traced) const { return with_definitions({parameter}).contains(traced); }
 
   /// The given parameters and all parameters that their definitions use, directly or through others.
   std::set<int> with_definitions(const std::set<int>& parameters) const;

@@ -64,23 +64,28 @@ class TableReader {
  public:
   /// `label` names the table in messages ("[[rod]] 2"); `used` collects the parameters that occur in
   /// expressions.
-  TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used);
+  TableReader(const Scene& scene, const Table& table, std::string label, std::set<int>& used)
+      : scene_(scene), table_(table), label_(std::move(label)), used_(used) {}
 
-  bool has(const std::string& key);
+  bool has(const std::string& key) { return find(key) != nullptr; }
 
   // Expressions whose dimension is known must have that of `unit`; plain numbers and parameters without a
   // unit are SI values of it.
 
   /// An expression of the parameters: a number, or a text such as "2*pi*rpm/60". `otherwise` is the value if
   /// the key is absent.
-  Expression expression(const std::string& key, WantedUnit unit = {});
+  Expression expression(const std::string& key, WantedUnit unit = {}) {
+    return to_expression(require(key, "a number or an expression"), key, unit);
+  }
   Expression expression_or(const std::string& key, double otherwise, WantedUnit unit = {});
 
   /// A list of expressions; a single expression counts as a list of one.
   std::vector<Expression> list(const std::string& key, WantedUnit unit = {});
 
   /// Three expressions: [x, y, z].
-  std::array<Expression, 3> vector(const std::string& key, WantedUnit unit = {});
+  std::array<Expression, 3> vector(const std::string& key, WantedUnit unit = {}) {
+    return to_vector(require(key, "three numbers or expressions [x, y, z]"), key, unit);
+  }
 
   NameOrPosition name_or_position(const std::string& key, WantedUnit unit = {});
 

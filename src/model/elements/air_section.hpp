@@ -54,8 +54,7 @@ struct AirSection {
   Quantity speed_of_sound;                       ///< m/s; without slot: the air is incompressible
   std::shared_ptr<const Polar> polar = nullptr;  ///< coefficients in place of lift_slope and zero_lift
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.place("quarter_chord", self.quarter_chord, "");
     visit.direction("leading", self.leading, "");
     visit.direction("lift", self.lift, "");

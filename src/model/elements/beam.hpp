@@ -36,8 +36,7 @@ struct BeamPoint {
   std::array<Quantity, section_entries> stiffness;  ///< S: N, N m, N m^2
   Quantity width;                                   ///< length that the point stands for, m
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.direction("slope", self.slope, "");
     for (auto& director : self.directors) visit.direction("director", director, "");
     for (auto& rate : self.rates) visit.direction("rate", rate, "");
@@ -118,8 +117,7 @@ struct BeamSection : BeamPoint {
 
   std::array<Quantity, 6> unloaded;  ///< strains of the unloaded beam: 1 for Gamma_x of a straight one
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     BeamPoint::fields(self, visit);
     visit.numbers(self.unloaded);
   }
@@ -145,8 +143,7 @@ struct BeamDamping : BeamPoint {
   Quantity time;                  ///< s
   std::array<Quantity, 6> roots;  ///< without slot: one
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     BeamPoint::fields(self, visit);
     visit.numbers(self.time, self.roots);
   }

@@ -20,8 +20,7 @@ struct Bearing {
   std::array<Quantity, 3> first, second;
   std::array<Quantity, 4> stiffness, damping;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "the point it holds");
     visit.place("seat", self.seat, "where the point rests without force");
     visit.vector({"first", "", "first direction, of any length", Range::positive}, self.first);

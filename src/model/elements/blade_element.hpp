@@ -27,8 +27,7 @@ struct BladeElement {
   Quantity width, chord, density, lift_slope, profile_drag, pitch;
 
   /// `point` is the middle of a strip and `width` its length; the scene gives the ends of the blade.
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.place("point", self.point, "");
     visit.direction("leading", self.leading, "");
     visit.direction("lift", self.lift, "");

@@ -14,8 +14,7 @@ struct Damper {
   Place from, to;
   Quantity coefficient;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
     visit.quantity({"coefficient", "N s/m", "force per rate of elongation"}, self.coefficient);

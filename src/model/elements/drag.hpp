@@ -13,8 +13,7 @@ struct Drag {
   Place point;
   Quantity coefficient;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "the point it acts on");
     visit.quantity({"coefficient", "N s/m", "drag per velocity"}, self.coefficient);
   }

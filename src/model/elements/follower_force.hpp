@@ -16,8 +16,7 @@ struct FollowerForce {
   Quantity magnitude, angle;
   std::array<Quantity, 3> axis;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "the point it acts on");
     visit.place("from", self.from, "where the line begins");
     visit.place("to", self.to, "where the line ends");

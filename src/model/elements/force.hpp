@@ -13,8 +13,7 @@ struct DeadForce {
   Place point;
   std::array<Quantity, 3> components;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "the point it acts on");
     visit.vector({"components", "N", "the force [x, y, z]"}, self.components);
   }

@@ -13,8 +13,7 @@ struct Gravity {
   MassDistribution masses;
   std::array<Quantity, 3> acceleration;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     MassDistribution::fields(self.masses, visit);
     visit.numbers(self.acceleration);
   }

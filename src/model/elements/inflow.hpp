@@ -38,8 +38,7 @@ struct Inflow {
   Quantity to_the_tip,
       at_radius;  ///< B/2 (R - r) / r and r of an annulus with loss at the tips; without slot: none
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.place("velocity", self.velocity, "");
     visit.numbers(self.axis, self.wind, self.angular_velocity, self.radius, self.density, self.area,
                   self.to_the_tip, self.at_radius);

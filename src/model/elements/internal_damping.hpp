@@ -16,8 +16,7 @@ struct InternalDamping {
   std::array<Quantity, 3> axis;
   Quantity coefficient, speed;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "a point of the shaft");
     visit.place("about", self.about, "where it would be on the straight shaft");
     visit.vector({"axis", "", "axis of rotation, of any length", Range::positive}, self.axis);

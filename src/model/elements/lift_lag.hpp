@@ -29,8 +29,7 @@ struct LiftLag : AirSection {
 
   std::array<Quantity, 2> shares, rates;  ///< A_i, b_i
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     AirSection::fields(self, visit);
     visit.numbers(self.shares, self.rates);
   }

@@ -18,8 +18,7 @@ struct MassDistribution {
   std::array<Quantity, 3> first;   ///< G_01, G_02, G_03, kg m
   std::array<Quantity, 6> second;  ///< G_11, G_22, G_33, G_12, G_13, G_23, kg m^2
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     for (int i = 0; i < self.size; ++i) visit.place("name", self.carriers[i], "");
     visit.numbers(self.mass);
     if (self.size > 1) visit.numbers(self.first, self.second);

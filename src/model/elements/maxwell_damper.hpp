@@ -26,8 +26,7 @@ struct MaxwellDamper {
   Place from, to;
   Quantity stiffness, coefficient;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
     visit.quantity({"stiffness", "N/m", "force per elongation of the spring", Range::positive},
@@ -59,8 +58,7 @@ struct TorsionalMaxwellDamper {
   HingeAngle angle;
   Quantity stiffness, coefficient;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.joint("joint", self.angle, "the joint whose angle it acts on");
     visit.quantity({"stiffness", "N m/rad", "moment per angle of the spring", Range::positive},
                    self.stiffness);

@@ -19,8 +19,7 @@ struct Moment {
   Place along;
   Quantity magnitude;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.body("body", self.directors, "the body it acts on");
     visit.direction("along", self.along, "its axis, of any length");
     visit.quantity({"magnitude", "N m", "the moment"}, self.magnitude);

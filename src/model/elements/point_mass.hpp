@@ -13,10 +13,7 @@ struct PointMass {
 
   MassDistribution masses;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    MassDistribution::fields(self.masses, visit);
-  }
+  static void fields(auto& self, auto& visit) { MassDistribution::fields(self.masses, visit); }
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {

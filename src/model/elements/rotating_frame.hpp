@@ -15,8 +15,7 @@ struct RotatingFrame {
   MassDistribution masses;
   std::array<Quantity, 3> angular_velocity;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     MassDistribution::fields(self.masses, visit);
     visit.numbers(self.angular_velocity);
   }

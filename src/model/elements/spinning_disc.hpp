@@ -16,8 +16,7 @@ struct SpinningDisc {
   Place axis;
   Quantity polar_inertia, speed;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.direction("axis", self.axis, "axis of spin, a direction of the body that carries the disc");
     visit.quantity({"polar_inertia", "kg m^2", "moment of inertia about the axis", Range::non_negative},
                    self.polar_inertia);

@@ -15,8 +15,7 @@ struct Spring {
   Place from, to;
   Quantity stiffness, free_length, preload;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.place("from", self.from, "one end");
     visit.place("to", self.to, "the other end");
     visit.quantity({"stiffness", "N/m", "force per elongation"}, self.stiffness);
@@ -47,8 +46,7 @@ struct GuidedSpring {
   std::array<Quantity, 3> direction;
   Quantity stiffness, reference;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "the point it acts on");
     visit.vector({"direction", "", "direction of the spring, of any length", Range::positive},
                  self.direction);

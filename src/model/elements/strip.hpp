@@ -21,8 +21,7 @@ struct Strip : AirSection {
 
   Quantity drag, moment;  ///< coefficients of drag and of the moment about the quarter chord; no slot: 0
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     AirSection::fields(self, visit);
     visit.numbers(self.drag, self.moment);
   }

@@ -55,8 +55,7 @@ struct TorsionalSpring {
   HingeAngle angle;
   Quantity stiffness, free_angle, preload;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.joint("joint", self.angle, "the joint whose angle it acts on");
     visit.quantity({"stiffness", "N m/rad", "moment per angle"}, self.stiffness);
     visit.quantity({"free_angle", "rad", "angle without moment", Range::any, 0.0}, self.free_angle);
@@ -81,8 +80,7 @@ struct TorsionalDamper {
   HingeAngle angle;
   Quantity coefficient;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.joint("joint", self.angle, "the joint whose angle it acts on");
     visit.quantity({"coefficient", "N m s/rad", "moment per rate of the angle"}, self.coefficient);
   }

@@ -16,8 +16,7 @@ struct TransverseForce {
   Place point, hinge;
   Quantity tangential, normal;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.point("point", self.point, "the point it acts on");
     visit.place("hinge", self.hinge, "where the line begins; the reaction is not applied to it");
     visit.quantity({"tangential", "N/m", "a_t: force along y per distance along x"}, self.tangential);

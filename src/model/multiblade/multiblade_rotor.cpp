@@ -122,9 +122,8 @@ class RotorAssembly {
     if (away <= still_on_axis * size && inclined <= still_on_axis) return {};
     return {data_.hub,
             "the hub '" + data_.hub + "' " + (away > still_on_axis * size ? "leaves" : "is inclined to") +
-                " the axis of rotation under a steady load across it, and the equations keep "
-                "coefficients that change with the azimuth; hold it on the z axis, or balance the load "
-                "of its support"};
+                " the axis of rotation under a steady load across it, and the equations keep coefficients "
+                "that change with the azimuth; hold it on the z axis, or balance the load of its support"};
   }
 
   EvaluationFault residual(BasicSteadyResidual<Real>& result, EvaluationCounts& counts) const {
@@ -187,15 +186,13 @@ class RotorAssembly {
   static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
   /// Calls visit(coordinate, share) for the entries of G in the steady state.
-  template <class Visit>
-  static void for_each_share(const RotorPart& part, Visit visit) {
+  static void for_each_share(const RotorPart& part, auto visit) {
     for (std::size_t i = 0; i < part.shares[0].size(); ++i) {
       for (const RotorShare& share : part.shares[0][i]) visit(index(i), share);
     }
   }
   /// Calls visit(row, row of the rotor) for the constraints of a part.
-  template <class Visit>
-  static void for_each_row(const RotorPart& part, Visit visit) {
+  static void for_each_row(const RotorPart& part, auto visit) {
     for (std::size_t i = 0; i < part.rows.size(); ++i) {
       if (part.rows[i] >= 0) visit(index(i), part.rows[i]);
     }

@@ -15,13 +15,11 @@ int read_blade_count(TableReader& table) {
   const Expression blades = table.expression("blades");
   for (const double few : {1.0, 2.0}) {
     if (!is_number(blades, few)) continue;
-    table.fail(
-        "blades",
-        "expected at least 3, found " + exact_text(few) +
-            ": the inertia of one or two blades differs along and across them, so that seen from the "
-            "support coefficients change with the azimuth in any coordinates, and averaging them would "
-            "be wrong; on a support that is the same in all directions describe the whole rotor in the "
-            "turning frame, without [rotor]");
+    table.fail("blades", "expected at least 3, found " + exact_text(few) +
+                             ": the inertia of one or two blades differs along and across them, so that seen "
+                             "from the support coefficients change with the azimuth in any coordinates, and "
+                             "averaging them would be wrong; on a support that is the same in all directions "
+                             "describe the whole rotor in the turning frame, without [rotor]");
   }
   return table.whole_number("blades", fewest_blades, most_blades);
 }
@@ -89,10 +87,9 @@ std::optional<BladedRotorDraft> read_bladed_rotor(Draft& draft) {
 
 Expression rotor_speed(const Draft& draft, const std::optional<ExpressionVector>& rotation) {
   if (!rotation)
-    throw scene_error(
-        draft.scene, draft.rotor->where,
-        "[rotor]: needs [frame] angular_velocity = [0, 0, speed], the frame in which its blades "
-        "are described");
+    throw scene_error(draft.scene, draft.rotor->where,
+                      "[rotor]: needs [frame] angular_velocity = [0, 0, speed], the frame in which its "
+                      "blades are described");
   for (std::size_t i = 0; i < draft.check_at.size(); ++i) {
     const Eigen::Vector3d w = draft.vector_at(*rotation, i);
     if (w.head<2>().norm() <= exactly_on_axis * w.norm()) continue;

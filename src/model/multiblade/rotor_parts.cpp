@@ -123,11 +123,10 @@ class Parts {
     joined_ = joined_ || (touched.blade && touched.hub);
     if constexpr (std::is_same_v<Element, SpinningDisc>) {
       if (touched.blade)
-        throw scene_error(
-            draft_.scene, where_is(draft_, Element::name, placed.label),
-            "[[spinning_disc]] '" + placed.label +
-                "': not on the blade of a [rotor], whose gyroscopic moments come from the inertia of "
-                "its bodies; it may be on the hub");
+        throw scene_error(draft_.scene, where_is(draft_, Element::name, placed.label),
+                          "[[spinning_disc]] '" + placed.label +
+                              "': not on the blade of a [rotor], whose gyroscopic moments come from the "
+                              "inertia of its bodies; it may be on the hub");
     }
     for (int i = 0; i < number_of_states<Element>(); ++i)
       state_of_blade[static_cast<std::size_t>(placed.first_state + i)] = touched.blade;

@@ -72,7 +72,11 @@ class Compiler {
     take(gradient, Target::constraints);
   }
 
-  Program finish();
+  Program finish() {
+    program_.n_directions = static_cast<int>(directions_.size());
+    assign_slots(program_, next_);
+    return std::move(program_);
+  }
 
  private:
   /// Registers by place. What needs no product is not added here, but where elements are.
@@ -191,17 +195,206 @@ class Compiler {
       program_.entries.push_back({target, place.first, place.second, reg});
   }
 
-  int value(int node);
-  int new_value(int node);
-  int tangent(int node, int direction);
-  int new_tangent(int node, int direction);
-  int product_tangent(const Operation& own, int direction);
-  int quotient_tangent(int node, const Operation& own, int direction);
-  int power_tangent(const Operation& own, int direction);
-  int choice_tangent(const Operation& own, int direction);
-  int slope(int node);
-  int new_slope(int node);
-  int both(Operator op, int of, bool second);
+  int value(int node) {
+    int& reg = values_[at(node)];
+    if (reg < 0) reg = new_value(node);
+    return reg;
+  }
+
+  /// The first or second result of an instruction that has two.
+  int both(Operator op, int of, bool second) {
+    const auto known = pairs_.find({op, of});
+    if (known != pairs_.end()) return known->second + int{second};
+    const int first = emit(op, value(of));
+    program_.instructions.back().second = next_++;
+    pairs_[{op, of}] = first;
+    return first + int{second};
+  }
+
+  int new_value(int node) {
+    const Operation& own = operation(node);
+    if (zero_[at(node)]) return constant(0.0);
+    switch (own.op) {
+      case Operator::constant:
+        return constant(own.constant);
+      case Operator::number:
+        program_.numbers.push_back({own.a, next_});
+        return next_++;
+      case Operator::coordinate:
+        program_.coordinates.push_back({own.a, next_});
+        return next_++;
+      case Operator::component:
+        return value(own.a);
+      case Operator::negate:
+        return negated(value(own.a));
+      case Operator::sin:
+      case Operator::cos:
+        return both(Operator::sin, own.a, own.op == Operator::cos);
+      case Operator::sinh:
+      case Operator::cosh:
+        return both(Operator::sinh, own.a, own.op == Operator::cosh);
+      case Operator::log:
+      case Operator::asin:
+      case Operator::acos:
+      case Operator::atan: {
+        const int rate = slope(node);
+        return emit(own.op, value(own.a), rate);
+      }
+      case Operator::function: {
+        const int reg = emit(own.op, value(own.a), own.b);
+        program_.instructions.back().second = slopes_[node] = next_++;
+        return reg;
+      }
+      default:
+        if (own.op == Operator::add || own.op == Operator::subtract) {
+          if (zero_[at(own.b)]) return value(own.a);
+          if (zero_[at(own.a)]) return own.op == Operator::add ? value(own.b) : negated(value(own.b));
+        }
+        const int left = value(own.a);
+        return emit(own.op, left, own.b < 0 ? -1 : value(own.b));
+    }
+  }
+
+  /// Derivative of a function of one argument, as a value.
+  int slope(int node) {
+    const auto known = slopes_.find(node);
+    if (known != slopes_.end()) return known->second;
+    const int reg = new_slope(node);
+    return slopes_[node] = reg;
+  }
+
+  int new_slope(int node) {
+    const Operation& own = operation(node);
+    switch (own.op) {
+      case Operator::exp:
+        return value(node);
+      case Operator::log:
+        return emit(Operator::divide, one_, value(own.a));
+      case Operator::sin:
+        return both(Operator::sin, own.a, true);
+      case Operator::sinh:
+        return both(Operator::sinh, own.a, true);
+      case Operator::cosh:
+        return both(Operator::sinh, own.a, false);
+      case Operator::tanh:
+        return emit(Operator::multiply_behind, value(node), value(node), one_);
+      case Operator::atan: {
+        const int x = value(own.a);
+        return emit(Operator::divide, one_, emit(Operator::multiply_add, x, x, one_));
+      }
+      case Operator::asin:
+      case Operator::acos: {
+        const int x = value(own.a);
+        const int root = emit(Operator::sqrt, emit(Operator::multiply_behind, x, x, one_));
+        return emit(Operator::divide, own.op == Operator::asin ? one_ : minus_one_, root);
+      }
+      case Operator::function:
+        value(node);
+        return slopes_.at(node);
+      default:
+        throw std::logic_error("Compiler: a function without derivative");
+    }
+  }
+
+  int tangent(int node, int direction) {
+    const std::pair key(node, direction);
+    const auto known = tangents_.find(key);
+    if (known != tangents_.end()) return known->second;
+    const int reg = new_tangent(node, direction);
+    tangents_[key] = reg;
+    return reg;
+  }
+
+  int new_tangent(int node, int direction) {
+    const Operation& own = operation(node);
+    switch (own.op) {
+      case Operator::component:
+      case Operator::rate:
+      case Operator::acceleration:
+        directions_.insert(direction);
+        return one_;
+      case Operator::add: {
+        if (!depends(own.a, direction)) return tangent(own.b, direction);
+        const int a = tangent(own.a, direction);
+        return depends(own.b, direction) ? sum(a, tangent(own.b, direction)) : a;
+      }
+      case Operator::subtract: {
+        if (!depends(own.a, direction)) return negated(tangent(own.b, direction));
+        const int a = tangent(own.a, direction);
+        return depends(own.b, direction) ? emit(Operator::subtract, a, tangent(own.b, direction)) : a;
+      }
+      case Operator::negate:
+        return negated(tangent(own.a, direction));
+      case Operator::multiply:
+        return product_tangent(own, direction);
+      case Operator::divide:
+        return quotient_tangent(node, own, direction);
+      case Operator::sqrt: {
+        const auto known = slopes_.find(node);
+        const int twice = known != slopes_.end() ? known->second : product(constant(2.0), value(node));
+        slopes_[node] = twice;
+        return emit(Operator::divide, tangent(own.a, direction), twice);
+      }
+      case Operator::cos: {
+        const int sine = both(Operator::sin, own.a, false);
+        return negated(product(tangent(own.a, direction), sine));
+      }
+      case Operator::power:
+        return power_tangent(own, direction);
+      case Operator::min:
+      case Operator::max:
+        return choice_tangent(own, direction);
+      default: {
+        const int rate = slope(node);
+        return product(tangent(own.a, direction), rate);
+      }
+    }
+  }
+
+  int product_tangent(const Operation& own, int direction) {
+    const bool by_a = depends(own.a, direction) && !zero_[at(own.b)];
+    const bool by_b = depends(own.b, direction) && !zero_[at(own.a)];
+    if (!by_a) return product(value(own.a), tangent(own.b, direction));
+    if (!by_b) return product(tangent(own.a, direction), value(own.b));
+    const int a = tangent(own.a, direction), b = tangent(own.b, direction);
+    const int left = value(own.a), right = value(own.b);
+    if (a == one_ || b == one_) return product_and(left, b, product(a, right));
+    return emit(Operator::multiply_two, left, b, a, right);
+  }
+
+  /// (a / b)' = (a' - (a / b) b') / b
+  int quotient_tangent(int node, const Operation& own, int direction) {
+    const bool by_b = depends(own.b, direction) && !zero_[at(own.a)];
+    int rest = depends(own.a, direction) ? tangent(own.a, direction) : -1;
+    if (by_b) {
+      const int quotient = value(node), b = tangent(own.b, direction);
+      rest = rest < 0 ? negated(product(quotient, b)) : emit(Operator::multiply_behind, quotient, b, rest);
+    }
+    return emit(Operator::divide, rest, value(own.b));
+  }
+
+  /// (x^y)' = y x^(y - 1) x' + x^y log(x) y'
+  int power_tangent(const Operation& own, int direction) {
+    const int x = value(own.a), y = value(own.b);
+    int result = -1;
+    if (depends(own.a, direction)) {
+      const int lower = emit(Operator::power, x, emit(Operator::subtract, y, one_));
+      result = product(tangent(own.a, direction), product(y, lower));
+    }
+    if (!depends(own.b, direction)) return result;
+    const int logarithm = emit(Operator::log, x, emit(Operator::divide, one_, x));
+    const int by_y = product(tangent(own.b, direction), product(emit(Operator::power, x, y), logarithm));
+    return result < 0 ? by_y : sum(result, by_y);
+  }
+
+  int choice_tangent(const Operation& own, int direction) {
+    const auto side = [&](int node) {
+      return depends(node, direction) ? tangent(node, direction) : constant(0.0);
+    };
+    const int a = side(own.a), b = side(own.b);
+    const Operator op = own.op == Operator::min ? Operator::choose_min : Operator::choose_max;
+    return emit(op, value(own.a), value(own.b), a, b);
+  }
 
   const Record& record_;
   std::vector<char> zero_;
@@ -216,213 +409,6 @@ class Compiler {
   int next_ = 0;
   int one_ = -1, minus_one_ = -1;
 };
-
-int Compiler::value(int node) {
-  int& reg = values_[at(node)];
-  if (reg < 0) reg = new_value(node);
-  return reg;
-}
-
-/// The first or second result of an instruction that has two.
-int Compiler::both(Operator op, int of, bool second) {
-  const auto known = pairs_.find({op, of});
-  if (known != pairs_.end()) return known->second + int{second};
-  const int first = emit(op, value(of));
-  program_.instructions.back().second = next_++;
-  pairs_[{op, of}] = first;
-  return first + int{second};
-}
-
-int Compiler::new_value(int node) {
-  const Operation& own = operation(node);
-  if (zero_[at(node)]) return constant(0.0);
-  switch (own.op) {
-    case Operator::constant:
-      return constant(own.constant);
-    case Operator::number:
-      program_.numbers.push_back({own.a, next_});
-      return next_++;
-    case Operator::coordinate:
-      program_.coordinates.push_back({own.a, next_});
-      return next_++;
-    case Operator::component:
-      return value(own.a);
-    case Operator::negate:
-      return negated(value(own.a));
-    case Operator::sin:
-    case Operator::cos:
-      return both(Operator::sin, own.a, own.op == Operator::cos);
-    case Operator::sinh:
-    case Operator::cosh:
-      return both(Operator::sinh, own.a, own.op == Operator::cosh);
-    case Operator::log:
-    case Operator::asin:
-    case Operator::acos:
-    case Operator::atan: {
-      const int rate = slope(node);
-      return emit(own.op, value(own.a), rate);
-    }
-    case Operator::function: {
-      const int reg = emit(own.op, value(own.a), own.b);
-      program_.instructions.back().second = slopes_[node] = next_++;
-      return reg;
-    }
-    default:
-      if (own.op == Operator::add || own.op == Operator::subtract) {
-        if (zero_[at(own.b)]) return value(own.a);
-        if (zero_[at(own.a)]) return own.op == Operator::add ? value(own.b) : negated(value(own.b));
-      }
-      const int left = value(own.a);
-      return emit(own.op, left, own.b < 0 ? -1 : value(own.b));
-  }
-}
-
-/// Derivative of a function of one argument, as a value.
-int Compiler::slope(int node) {
-  const auto known = slopes_.find(node);
-  if (known != slopes_.end()) return known->second;
-  const int reg = new_slope(node);
-  return slopes_[node] = reg;
-}
-
-int Compiler::new_slope(int node) {
-  const Operation& own = operation(node);
-  switch (own.op) {
-    case Operator::exp:
-      return value(node);
-    case Operator::log:
-      return emit(Operator::divide, one_, value(own.a));
-    case Operator::sin:
-      return both(Operator::sin, own.a, true);
-    case Operator::sinh:
-      return both(Operator::sinh, own.a, true);
-    case Operator::cosh:
-      return both(Operator::sinh, own.a, false);
-    case Operator::tanh:
-      return emit(Operator::multiply_behind, value(node), value(node), one_);
-    case Operator::atan: {
-      const int x = value(own.a);
-      return emit(Operator::divide, one_, emit(Operator::multiply_add, x, x, one_));
-    }
-    case Operator::asin:
-    case Operator::acos: {
-      const int x = value(own.a);
-      const int root = emit(Operator::sqrt, emit(Operator::multiply_behind, x, x, one_));
-      return emit(Operator::divide, own.op == Operator::asin ? one_ : minus_one_, root);
-    }
-    case Operator::function:
-      value(node);
-      return slopes_.at(node);
-    default:
-      throw std::logic_error("Compiler: a function without derivative");
-  }
-}
-
-int Compiler::tangent(int node, int direction) {
-  const std::pair key(node, direction);
-  const auto known = tangents_.find(key);
-  if (known != tangents_.end()) return known->second;
-  const int reg = new_tangent(node, direction);
-  tangents_[key] = reg;
-  return reg;
-}
-
-int Compiler::new_tangent(int node, int direction) {
-  const Operation& own = operation(node);
-  switch (own.op) {
-    case Operator::component:
-    case Operator::rate:
-    case Operator::acceleration:
-      directions_.insert(direction);
-      return one_;
-    case Operator::add: {
-      if (!depends(own.a, direction)) return tangent(own.b, direction);
-      const int a = tangent(own.a, direction);
-      return depends(own.b, direction) ? sum(a, tangent(own.b, direction)) : a;
-    }
-    case Operator::subtract: {
-      if (!depends(own.a, direction)) return negated(tangent(own.b, direction));
-      const int a = tangent(own.a, direction);
-      return depends(own.b, direction) ? emit(Operator::subtract, a, tangent(own.b, direction)) : a;
-    }
-    case Operator::negate:
-      return negated(tangent(own.a, direction));
-    case Operator::multiply:
-      return product_tangent(own, direction);
-    case Operator::divide:
-      return quotient_tangent(node, own, direction);
-    case Operator::sqrt: {
-      const auto known = slopes_.find(node);
-      const int twice = known != slopes_.end() ? known->second : product(constant(2.0), value(node));
-      slopes_[node] = twice;
-      return emit(Operator::divide, tangent(own.a, direction), twice);
-    }
-    case Operator::cos: {
-      const int sine = both(Operator::sin, own.a, false);
-      return negated(product(tangent(own.a, direction), sine));
-    }
-    case Operator::power:
-      return power_tangent(own, direction);
-    case Operator::min:
-    case Operator::max:
-      return choice_tangent(own, direction);
-    default: {
-      const int rate = slope(node);
-      return product(tangent(own.a, direction), rate);
-    }
-  }
-}
-
-int Compiler::product_tangent(const Operation& own, int direction) {
-  const bool by_a = depends(own.a, direction) && !zero_[at(own.b)];
-  const bool by_b = depends(own.b, direction) && !zero_[at(own.a)];
-  if (!by_a) return product(value(own.a), tangent(own.b, direction));
-  if (!by_b) return product(tangent(own.a, direction), value(own.b));
-  const int a = tangent(own.a, direction), b = tangent(own.b, direction);
-  const int left = value(own.a), right = value(own.b);
-  if (a == one_ || b == one_) return product_and(left, b, product(a, right));
-  return emit(Operator::multiply_two, left, b, a, right);
-}
-
-/// (a / b)' = (a' - (a / b) b') / b
-int Compiler::quotient_tangent(int node, const Operation& own, int direction) {
-  const bool by_b = depends(own.b, direction) && !zero_[at(own.a)];
-  int rest = depends(own.a, direction) ? tangent(own.a, direction) : -1;
-  if (by_b) {
-    const int quotient = value(node), b = tangent(own.b, direction);
-    rest = rest < 0 ? negated(product(quotient, b)) : emit(Operator::multiply_behind, quotient, b, rest);
-  }
-  return emit(Operator::divide, rest, value(own.b));
-}
-
-/// (x^y)' = y x^(y - 1) x' + x^y log(x) y'
-int Compiler::power_tangent(const Operation& own, int direction) {
-  const int x = value(own.a), y = value(own.b);
-  int result = -1;
-  if (depends(own.a, direction)) {
-    const int lower = emit(Operator::power, x, emit(Operator::subtract, y, one_));
-    result = product(tangent(own.a, direction), product(y, lower));
-  }
-  if (!depends(own.b, direction)) return result;
-  const int logarithm = emit(Operator::log, x, emit(Operator::divide, one_, x));
-  const int by_y = product(tangent(own.b, direction), product(emit(Operator::power, x, y), logarithm));
-  return result < 0 ? by_y : sum(result, by_y);
-}
-
-int Compiler::choice_tangent(const Operation& own, int direction) {
-  const auto side = [&](int node) {
-    return depends(node, direction) ? tangent(node, direction) : constant(0.0);
-  };
-  const int a = side(own.a), b = side(own.b);
-  const Operator op = own.op == Operator::min ? Operator::choose_min : Operator::choose_max;
-  return emit(op, value(own.a), value(own.b), a, b);
-}
-
-Program Compiler::finish() {
-  program_.n_directions = static_cast<int>(directions_.size());
-  assign_slots(program_, next_);
-  return std::move(program_);
-}
 
 }  // namespace
 

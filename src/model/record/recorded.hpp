@@ -35,11 +35,32 @@ class Recorded {
   static Recorded of(Operator op, const Recorded& a, const Recorded& b);
 
   // Literals are computed at once. Sums with zero and products with zero or one are no operations.
-  friend Recorded operator+(const Recorded& a, const Recorded& b);
-  friend Recorded operator-(const Recorded& a, const Recorded& b);
-  friend Recorded operator*(const Recorded& a, const Recorded& b);
-  friend Recorded operator/(const Recorded& a, const Recorded& b);
-  friend Recorded operator-(const Recorded& a);
+  friend Recorded operator+(const Recorded& a, const Recorded& b) {
+    if (a.is_literal(0.0)) return b;
+    if (b.is_literal(0.0)) return a;
+    return recorder_of(a, b) == nullptr ? a.literal() + b.literal() : of(Operator::add, a, b);
+  }
+  friend Recorded operator-(const Recorded& a, const Recorded& b) {
+    if (a.is_literal(0.0)) return -b;
+    if (b.is_literal(0.0)) return a;
+    return recorder_of(a, b) == nullptr ? a.literal() - b.literal() : of(Operator::subtract, a, b);
+  }
+  friend Recorded operator*(const Recorded& a, const Recorded& b) {
+    if (a.is_literal(0.0) || b.is_literal(0.0)) return 0.0;
+    if (a.is_literal(1.0)) return b;
+    if (b.is_literal(1.0)) return a;
+    if (a.is_literal(-1.0)) return -b;
+    if (b.is_literal(-1.0)) return -a;
+    return recorder_of(a, b) == nullptr ? a.literal() * b.literal() : of(Operator::multiply, a, b);
+  }
+  friend Recorded operator/(const Recorded& a, const Recorded& b) {
+    if (a.is_literal(0.0) && b.recorder() != nullptr) return 0.0;
+    if (b.is_literal(1.0)) return a;
+    return recorder_of(a, b) == nullptr ? a.literal() / b.literal() : of(Operator::divide, a, b);
+  }
+  friend Recorded operator-(const Recorded& a) {
+    return a.recorder() == nullptr ? Recorded(-a.literal()) : of(Operator::negate, a);
+  }
 
   friend Recorded sqrt(const Recorded& x) { return of(Operator::sqrt, x); }
   friend Recorded exp(const Recorded& x) { return of(Operator::exp, x); }
@@ -64,6 +85,10 @@ class Recorded {
   friend Recorded abs(const Recorded& x) { return (2.0 * step(x) - 1.0) * x; }
 
  private:
+  static Recorder* recorder_of(const Recorded& a, const Recorded& b) {
+    return a.recorder_ != nullptr ? a.recorder_ : b.recorder_;
+  }
+
   Recorder* recorder_ = nullptr;
   int node_ = -1;
   double literal_ = 0.0;

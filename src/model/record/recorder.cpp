@@ -65,14 +65,6 @@ Recorded Recorder::apply(const SmoothFunction& f, const Recorded& x) {
   return push({Operator::function, node(x), static_cast<int>(at - functions_.begin())});
 }
 
-namespace {
-
-Recorder* recorder_of(const Recorded& a, const Recorded& b) {
-  return a.recorder() != nullptr ? a.recorder() : b.recorder();
-}
-
-}  // namespace
-
 Recorded Recorded::of(Operator op, const Recorded& x) {
   if (x.recorder() == nullptr) throw std::logic_error("Recorded: a function of a literal");
   return x.recorder()->operation(op, x);
@@ -82,37 +74,6 @@ Recorded Recorded::of(Operator op, const Recorded& a, const Recorded& b) {
   Recorder* const recorder = recorder_of(a, b);
   if (recorder == nullptr) throw std::logic_error("Recorded: a function of literals");
   return recorder->operation(op, a, b);
-}
-
-Recorded operator+(const Recorded& a, const Recorded& b) {
-  if (a.is_literal(0.0)) return b;
-  if (b.is_literal(0.0)) return a;
-  return recorder_of(a, b) == nullptr ? a.literal() + b.literal() : Recorded::of(Operator::add, a, b);
-}
-
-Recorded operator-(const Recorded& a, const Recorded& b) {
-  if (a.is_literal(0.0)) return -b;
-  if (b.is_literal(0.0)) return a;
-  return recorder_of(a, b) == nullptr ? a.literal() - b.literal() : Recorded::of(Operator::subtract, a, b);
-}
-
-Recorded operator*(const Recorded& a, const Recorded& b) {
-  if (a.is_literal(0.0) || b.is_literal(0.0)) return 0.0;
-  if (a.is_literal(1.0)) return b;
-  if (b.is_literal(1.0)) return a;
-  if (a.is_literal(-1.0)) return -b;
-  if (b.is_literal(-1.0)) return -a;
-  return recorder_of(a, b) == nullptr ? a.literal() * b.literal() : Recorded::of(Operator::multiply, a, b);
-}
-
-Recorded operator/(const Recorded& a, const Recorded& b) {
-  if (a.is_literal(0.0) && b.recorder() != nullptr) return 0.0;
-  if (b.is_literal(1.0)) return a;
-  return recorder_of(a, b) == nullptr ? a.literal() / b.literal() : Recorded::of(Operator::divide, a, b);
-}
-
-Recorded operator-(const Recorded& a) {
-  return a.recorder() == nullptr ? Recorded(-a.literal()) : Recorded::of(Operator::negate, a);
 }
 
 Recorded angle_of(const Recorded& sine, const Recorded& cosine) {

@@ -6,8 +6,7 @@ namespace eigentrail {
 namespace {
 
 /// Calls visit(register) for all operands.
-template <class Any, class Visit>
-void for_each_operand(Any& instruction, Visit visit) {
+void for_each_operand(auto& instruction, auto visit) {
   visit(instruction.a);
   if (instruction.op != Operator::function) visit(instruction.b);
   visit(instruction.c);
@@ -15,8 +14,7 @@ void for_each_operand(Any& instruction, Visit visit) {
 }
 
 /// Calls visit(register) for everything that is wanted in the end.
-template <class Visit>
-void for_each_output(Program& program, Visit visit) {
+void for_each_output(Program& program, auto visit) {
   for (LocalValue& force : program.forces) visit(force.slot);
   for (LocalValue& value : program.values) visit(value.slot);
   for (Entry& entry : program.entries) visit(entry.slot);

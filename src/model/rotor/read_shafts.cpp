@@ -28,9 +28,7 @@ std::vector<Expression> differences(const std::vector<Expression>& positions) {
 }
 
 /// One value is that of all segments; else there must be as many as segments.
-template <class Value>
-void spread(const TableReader& table, const std::string& key, std::vector<Value>& values,
-            std::size_t segments) {
+void spread(const TableReader& table, const std::string& key, auto& values, std::size_t segments) {
   if (values.size() == 1) values.resize(segments, values.front());
   if (values.size() != segments)
     table.fail(key, "has " + std::to_string(values.size()) + " values, and there are " +

@@ -1,6 +1,8 @@
 #include "model/rotor/rotor_draft.hpp"
 
-#include <charconv>
+#include <algorithm>
+
+#include "core/texts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -33,10 +35,9 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
   const std::vector<std::string> names = names_of(shafts);
   for (const std::string& text : table.texts(key)) {
     const std::size_t digits = text.find_last_not_of("0123456789") + 1;
-    long number = 0;
-    const auto [end, error] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
+    const auto number = parsed_number<long>(std::string_view(text).substr(digits));
     const std::string expected = shafts.size() == 1 ? "3" : "\"" + names.front() + " node 3\"";
-    if (digits == text.size() || error != std::errc() || end != text.data() + text.size())
+    if (!number)
       table.fail(key, "expected the number of a node, such as " + expected + ", found \"" + text + "\"");
     const std::string name = shaft_part(text.substr(0, digits));
     std::size_t shaft = 0;
@@ -46,10 +47,10 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
       shaft = index_of(name, names, table, key, "shaft");
     }
     const std::size_t count = shafts[shaft].held.size();
-    if (number < 1 || number > static_cast<long>(count))
-      table.fail(key, "there is no " + shafts[shaft].node_name(static_cast<std::size_t>(number - 1)) +
+    if (*number < 1 || *number > static_cast<long>(count))
+      table.fail(key, "there is no " + shafts[shaft].node_name(static_cast<std::size_t>(*number - 1)) +
                           "; the nodes are numbered from 1 to " + std::to_string(count));
-    places.push_back({shaft, static_cast<std::size_t>(number - 1)});
+    places.push_back({shaft, static_cast<std::size_t>(*number - 1)});
   }
   if (places.empty()) table.fail(key, "expected a node, found an empty list");
   return places;
@@ -58,10 +59,61 @@ std::vector<NodePlace> RotorDraft::read_nodes(TableReader& table, const std::str
 double RotorDraft::first_value(const Expression& expression) const {
   const std::vector<double> values = draft.check_values(expression);
   if (!values.empty()) return values.front();
-  Vector si = draft.scene.parameters.declared_values();
-  const std::span<double> span(si.data(), draft.scene.parameters.size());
-  draft.scene.parameters.to_si(span);
-  return expression.evaluate(std::span<const double>(span));
+  const Parameters& parameters = draft.scene.parameters;
+  return expression.value(parameters.in_si(parameters.declared_values()));
+}
+
+MatrixSum::Part& MatrixSum::part(const Expression& factor,
+                                 const std::shared_ptr<const TabulatedFactor>& table,
+                                 const Expression& scale) {
+  const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const Part& one) {
+    return one.table == table && one.factor == factor && one.scale == scale;
+  });
+  if (found != parts_.end()) return *found;
+  return parts_.emplace_back(Part{factor, table, scale});
+}
+
+void MatrixSum::add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value,
+                    const std::shared_ptr<const TabulatedFactor>& table) {
+  const bool fixed = !table && factor.is_constant();
+  if (fixed) value *= factor.value();
+  if (row < 0 || column < 0 || value == 0.0) return;
+  part(fixed ? 1.0 : factor, table).entries[{row, column}] += value;
+}
+
+void MatrixSum::add_product(Eigen::Index row, Eigen::Index column, const Expression& factor,
+                            const Expression& entry, double value) {
+  if (entry.is_constant()) {
+    add(row, column, factor, value * entry.value());
+  } else {
+    add(row, column, factor * entry, value);
+  }
+}
+
+void MatrixSum::add(const MatrixSum& other, const Expression& strength) {
+  for (const Part& one : other.parts_) {
+    const bool whole = strength == Expression(1.0);
+    Part& own = whole       ? part(one.factor, one.table, one.scale)
+                : one.table ? part(one.factor, one.table, one.scale * strength)
+                            : part(one.factor * strength, nullptr);
+    for (const auto& [at, value] : one.entries) own.entries[at] += value;
+  }
+}
+
+std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
+  std::vector<AffineTerm<SparseMatrix>> result;
+  for (const Part& one : parts_) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& [at, value] : one.entries) {
+      if (value != 0.0) entries.emplace_back(at.first, at.second, value);
+    }
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    result.emplace_back(one.factor, std::move(matrix));
+    result.back().table = one.table;
+    result.back().scale = one.scale;
+  }
+  return result;
 }
 
 }  // namespace eigentrail

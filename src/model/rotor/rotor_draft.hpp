@@ -2,16 +2,57 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "eigentrail/model/affine_family.hpp"
 #include "model/csv_table.hpp"
 #include "model/draft.hpp"
-#include "model/rotor/pencil_sum.hpp"
 #include "model/rotor/shaft_element.hpp"
 
 namespace eigentrail {
+
+/// One of the matrices M, C and K as it is put together. What has the same factor is one matrix.
+class MatrixSum {
+ public:
+  /// Adds `factor` * `value` at a row and a column; nothing where one of them is negative (a freedom that is
+  /// held) or the value is zero. Constant factors are multiplied into the value. If there is a table, its
+  /// function of `factor` takes the place of the factor.
+  void add(Eigen::Index row, Eigen::Index column, const Expression& factor, double value = 1.0,
+           const std::shared_ptr<const TabulatedFactor>& table = nullptr);
+  /// Adds `factor` * `entry` * `value`; constant entries are multiplied into the value.
+  void add_product(Eigen::Index row, Eigen::Index column, const Expression& factor, const Expression& entry,
+                   double value);
+
+  /// Adds all entries of another sum, times `strength`.
+  void add(const MatrixSum& other, const Expression& strength);
+
+  bool empty() const { return parts_.empty(); }
+
+  /// The summands, n x n.
+  std::vector<AffineTerm<SparseMatrix>> terms(Eigen::Index n) const;
+
+ private:
+  struct Part {
+    Expression factor;
+    std::shared_ptr<const TabulatedFactor> table;
+    Expression scale = 1.0;  ///< of the tabulated function
+    std::map<std::pair<Eigen::Index, Eigen::Index>, double> entries = {};
+  };
+
+  Part& part(const Expression& factor, const std::shared_ptr<const TabulatedFactor>& table,
+             const Expression& scale = 1.0);
+
+  std::vector<Part> parts_;
+};
+
+/// M, C and K.
+struct PencilSum {
+  MatrixSum M, C, K;
+};
 
 /// The effects that a rotor is made of: what `explain` lists, what a strength multiplies and what --without
 /// leaves out.
@@ -96,18 +137,7 @@ void read_shafts(RotorDraft& rotor);
 /// Adds the matrices of the shafts, whose nodes have coordinates (assemble_shafts.cpp).
 void assemble_shafts(RotorDraft& rotor);
 
-/// Read the [[disc]] tables and the [[bearing]] tables, and add their matrices.
-void read_discs(RotorDraft& rotor);
+/// Reads the [[bearing]] tables and adds their matrices.
 void read_bearings(RotorDraft& rotor);
-
-/// Throws InputError if an effect that the request leaves out is not in the scene, or cannot be left out.
-void check_rotor_without(const RotorDraft& rotor);
-
-/// The effects of the scene, in order, with what each of them contributes to n x n matrices.
-std::vector<Effect> rotor_effects(const RotorDraft& rotor, Eigen::Index n);
-
-/// The sum of all effects that are not left out. Each is multiplied by its strength, if strengths are asked
-/// for.
-AffinePencil<SparseMatrix> pencil_of_effects(RotorDraft& rotor, Eigen::Index n);
 
 }  // namespace eigentrail
