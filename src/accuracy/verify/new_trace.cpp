@@ -63,6 +63,8 @@ std::string indices_text(const Shape& shape, std::size_t index) {
   return text;
 }
 
+/// What differs in the datasets of the file from `traced`, the bytes of a loci file of a new trace. Datasets
+/// that only the first file has do not count: other programs may have added them.
 class Differences {
  public:
   Differences(const CheckedFile& file, std::string_view traced)
@@ -134,12 +136,6 @@ class Differences {
   std::map<std::string, std::string> rows_;  ///< first dimension of each dataset
   FileDifferences result_;
 };
-
-/// What differs in the datasets of the file from `traced`, the bytes of a loci file of a new trace. Datasets
-/// that only the first file has do not count: other programs may have added them.
-FileDifferences file_differences(const CheckedFile& file, std::string_view traced) {
-  return Differences(file, traced).find();
-}
 
 /// Attributes that differ between runs, or hold what other comparisons look at.
 bool is_compared(const std::string& attribute) {
@@ -225,7 +221,7 @@ Comparison compare_new_trace(const CheckedFile& file) {
     return result;
   }
   const LociFile other = read_loci_image("new trace", traced.bytes);
-  FileDifferences differences = file_differences(file, traced.bytes);
+  FileDifferences differences = Differences(file, traced.bytes).find();
   const std::size_t computed = differences.different.count("dense_output") +
                                differences.different.count("mode_shape") +
                                differences.different.count("eigenvalue_derivative");
