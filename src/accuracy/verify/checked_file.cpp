@@ -1,4 +1,4 @@
-#include "accuracy/verify/checked_file.hpp"
+#include "accuracy/verify/comparisons.hpp"
 
 #include <algorithm>
 #include <array>
