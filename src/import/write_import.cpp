@@ -8,7 +8,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
-#include "eigentrail/import/write_samples.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/output_file.hpp"
@@ -184,10 +183,6 @@ std::string scene_text(const Imported& imported, const std::string& file) {
 }
 
 }  // namespace
-
-void write_samples(const std::string& path, const SampledData& data) {
-  write_durably(path, {samples_file(data)});
-}
 
 std::string common_name(const std::vector<std::string>& files) {
   std::string name = std::filesystem::path(files.front()).stem().string();

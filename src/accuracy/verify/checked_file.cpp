@@ -85,10 +85,6 @@ CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup) {
   return file;
 }
 
-std::string count_text(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 namespace {
 
 /// The text that a key of a table has; empty if it has none.

@@ -101,7 +101,7 @@ Comparison compare_labels(const CheckedFile& file) {
       }
     }
   }
-  result.compared = count_text(compared, "end") + " of the dense output against the stored eigenvalues";
+  result.compared = count_of(compared, "end") + " of the dense output against the stored eigenvalues";
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/texts.hpp"
 #include "eigentrail/accuracy/verify.hpp"
 #include "eigentrail/continuation/event.hpp"
 #include "eigentrail/continuation/path_point.hpp"
@@ -40,9 +41,6 @@ struct CheckedFile {
 
 /// Throws InputError if an event cannot be read.
 CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup);
-
-/// "1 point", "3 points".
-std::string count_text(std::size_t count, const std::string& what);
 
 /// The file with the matrices of a scene, or the first table of a rotor, as the scene names it; empty if they
 /// stand in the scene.

@@ -107,7 +107,7 @@ class Differences {
     result_.numbers += stored.size();
     const Shape& shape = shapes.first;
     if (shape != shapes.second)
-      result_.faults.push_back(name + " has " + count_text(stored.size(), "element") + ", in a new trace " +
+      result_.faults.push_back(name + " has " + count_of(stored.size(), "element") + ", in a new trace " +
                                std::to_string(traced.size()));
     const auto common = static_cast<std::ptrdiff_t>(std::min(stored.size(), traced.size()));
     const auto [a, b] = std::mismatch(stored.begin(), stored.begin() + common, traced.begin(),
@@ -165,7 +165,7 @@ void compare_labels_with(const LociFile& traced, const CheckedFile& file, Compar
     result.faults.push_back("the file ends at " + file.at(file.loci.p.back()) + ", a new trace at " +
                             exact_text(traced.p.back()));
   if (file.loci.modes.size() != traced.modes.size())
-    result.faults.push_back("the file has " + count_text(file.loci.modes.size(), "mode") + ", a new trace " +
+    result.faults.push_back("the file has " + count_of(file.loci.modes.size(), "mode") + ", a new trace " +
                             std::to_string(traced.modes.size()));
   for (const std::size_t node : file.plain_nodes(100)) {
     const double p = file.loci.p[node];

@@ -112,7 +112,7 @@ void compare_counts(const CheckedFile& file, Comparison& result) {
     }
     known = node;
   }
-  result.compared = "numbers of growing and of real eigenvalues on " + count_text(compared, "step") +
+  result.compared = "numbers of growing and of real eigenvalues on " + count_of(compared, "step") +
                     " against the special points";
 }
 
@@ -162,7 +162,7 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
         result.faults.push_back("all modes decay at " + file.at(p) + ", outside the stable ranges");
     }
   }
-  result.compared += ", " + count_text(loci.ranges->size(), "stable range") + " against the eigenvalues";
+  result.compared += ", " + count_of(loci.ranges->size(), "stable range") + " against the eigenvalues";
 }
 
 }  // namespace
