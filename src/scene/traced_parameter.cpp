@@ -6,9 +6,7 @@ namespace eigentrail {
 
 std::string traced_parameter(const Scene& scene) {
   for (const Table* trace : tables(scene, "trace")) {
-    const Value* value = trace->find("parameter");
-    const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
-    if (name != nullptr) return *name;
+    if (const auto* name = entry_as<std::string>(*trace, "parameter")) return *name;
   }
   return "";
 }
@@ -16,9 +14,7 @@ std::string traced_parameter(const Scene& scene) {
 std::vector<std::string> trimmed_parameters(const Scene& scene) {
   std::vector<std::string> names;
   for (const Table* trim : tables(scene, "trim")) {
-    const Value* unknown = trim->find("unknown");
-    const auto* name = unknown == nullptr ? nullptr : std::get_if<std::string>(&unknown->data);
-    if (name != nullptr) names.push_back(*name);
+    if (const auto* name = entry_as<std::string>(*trim, "unknown")) names.push_back(*name);
   }
   return names;
 }

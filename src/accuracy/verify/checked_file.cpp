@@ -85,23 +85,13 @@ CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup) {
   return file;
 }
 
-namespace {
-
-/// The text that a key of a table has; empty if it has none.
-std::string text_of(const Table& table, const char* key) {
-  const Value* value = table.find(key);
-  const auto* text = value != nullptr ? std::get_if<std::string>(&value->data) : nullptr;
-  return text == nullptr ? "" : *text;
-}
-
-}  // namespace
-
 std::string file_of_matrices(const Scene& scene) {
   constexpr std::array<std::pair<const char*, const char*>, 4> keys{
       {{"matrix_family", "file"}, {"sampled_family", "file"}, {"shaft", "stations"}, {"bearing", "table"}}};
   for (const auto& [name, key] : keys) {
     for (const Table* table : tables(scene, name)) {
-      if (const std::string file = text_of(*table, key); !file.empty()) return file;
+      if (const auto* file = entry_as<std::string>(*table, key); file != nullptr && !file->empty())
+        return *file;
     }
   }
   return "";
