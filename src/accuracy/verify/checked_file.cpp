@@ -18,15 +18,12 @@ namespace {
 Event event_of(const LociFile& loci, const LociEvent& stored) {
   const EventKindInfo* kind = find_event_kind(stored.kind);
   if (kind == nullptr) throw InputError(loci.path + ": has a special point of unknown kind " + stored.kind);
-  Event event;
-  event.kind = kind->kind;
-  event.p = stored.parameter;
-  event.s = stored.s;
-  event.half_width = stored.half_width;
-  event.puiseux = stored.puiseux;
-  event.direction = stored.direction;
-  event.value = stored.value;
-  event.node = stored.node;
+  Event event{.kind = kind->kind,
+              .p = stored.parameter,
+              .s = stored.s,
+              .direction = stored.direction,
+              .value = stored.value,
+              .node = stored.node};
   std::istringstream numbers(stored.modes);
   for (std::string number; std::getline(numbers, number, ';');)
     event.modes.push_back(std::atoi(number.c_str()) - 1);

@@ -24,7 +24,7 @@ struct CheckedFile {
   const LociFile& loci;
   const TraceSetup& setup;
   EigenvalueAccuracy accuracy;  ///< of the trace
-  std::vector<Event> events;    ///< of the file, without sensitivities
+  std::vector<Event> events;    ///< of the file, with what is compared
 
   bool has_steps() const { return !loci.steps.empty(); }
   double scale_of(Complex s) const { return std::max(std::abs(s), accuracy.reference); }
