@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -6,7 +7,6 @@
 #include "commands.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
-#include "eigentrail/scene/traced_parameter.hpp"
 #include "eigentrail/stability/boundary.hpp"
 #include "eigentrail/store/boundary_writer.hpp"
 #include "output.hpp"
@@ -27,11 +27,13 @@ void read_ranges(const Scene& scene, BoundaryArguments& arguments) {
   BoundaryRequest& request = arguments.request;
   request.second = arguments.second;
   std::tie(request.from, request.to) = arguments.second_range(scene);
-  const std::string first = request.parameter.value_or(traced_parameter(scene));
-  for (const auto& [key, text] : arguments.options) {
-    auto& end = key == "from" ? request.first_from : request.first_to;
-    end = read_value("--" + key, text, parameter_called(scene, first));
+  const Parameter first = parameter_called(scene, arguments.traced(scene));
+  for (const std::string key : {"from", "to"}) {
+    const auto given = arguments.options.find(key);
+    if (given != arguments.options.end())
+      given->second = exact_text(read_value("--" + key, given->second, first));
   }
+  request.overrides = arguments.overrides();
 }
 
 std::string range_text(double from, double to) {
@@ -124,24 +126,17 @@ int finish_boundary(const BoundarySetup& setup, const SharedRun& run, const Comp
   return numbers_failed;
 }
 
-/// The numbers of a request that need not be given, with the labels of their settings.
-std::vector<std::pair<std::string, std::optional<double>*>> optional_numbers(BoundaryRequest& request) {
-  return {{"--from", &request.first_from},
-          {"--to", &request.first_to},
-          {"--tolerance", &request.tolerance},
-          {"--damping-ratio", &request.damping_ratio}};
-}
-
-SharedRun shared_run(const BoundarySetup& setup, BoundaryRequest request) {
+SharedRun shared_run(const BoundarySetup& setup, const BoundaryRequest& request) {
   SharedRun run{"boundary", setup.scene.path, settings_of(setup.scene), boundary_lines(setup.options)};
   run.settings.insert(run.settings.end(), {{"--second", request.second},
                                            {"--second-from", exact_text(request.from)},
                                            {"--second-to", exact_text(request.to)}});
-  for (const auto& [label, number] : optional_numbers(request)) {
-    if (*number) run.settings.emplace_back(label, exact_text(**number));
+  std::map<std::string, std::string> given(request.overrides.begin(), request.overrides.end());
+  if (request.damping_ratio) given["damping-ratio"] = exact_text(*request.damping_ratio);
+  if (request.lines) given["lines"] = std::to_string(*request.lines);
+  for (const std::string key : {"from", "to", "tolerance", "damping-ratio", "parameter", "lines"}) {
+    if (given.contains(key)) run.settings.emplace_back("--" + key, given[key]);
   }
-  if (request.parameter) run.settings.emplace_back("--parameter", *request.parameter);
-  if (request.lines) run.settings.emplace_back("--lines", std::to_string(*request.lines));
   return run;
 }
 
@@ -177,10 +172,10 @@ SharedJob boundary_of_parts(const SharedRun& run, const OutputChoice& output) {
   request.second = run.setting("--second").value_or("");
   request.from = number_of(run, "--second-from");
   request.to = number_of(run, "--second-to");
-  for (const auto& [label, number] : optional_numbers(request)) {
-    if (run.setting(label)) *number = number_of(run, label);
+  for (const std::string key : {"from", "parameter", "to", "tolerance"}) {
+    if (const auto text = run.setting("--" + key)) request.overrides.emplace_back(key, *text);
   }
-  request.parameter = run.setting("--parameter");
+  if (run.setting("--damping-ratio")) request.damping_ratio = number_of(run, "--damping-ratio");
   if (run.setting("--lines")) request.lines = static_cast<int>(number_of(run, "--lines"));
   Scene scene = parse_scene(run.setting("scene").value_or(""), run.scene_path);
   // The curves are computed from the files beside the scene, which must be those of the lines.
@@ -202,9 +197,10 @@ void add_boundary(CLI::App& program, int& exit_code) {
   add_output(*command, arguments->output, "boundary file to write (HDF5); default: SCENE_boundary.h5, here");
   add_part(*command, arguments->output);
   add_plane(*command, *arguments);
-  command->add_option("--parameter", request.parameter, "name of the first parameter (overrides the scene)");
-  command->add_option(
-      "--tolerance", request.tolerance,
+  add_override(*command, *arguments, "parameter", "name of the first parameter");
+  command->add_option_function<double>(
+      "--tolerance",
+      [&options = arguments->options](double tolerance) { options["tolerance"] = exact_text(tolerance); },
       "bound of the relative error of the eigenvalue and of the curve in units of the window, "
       "everywhere along it (overrides the scene)");
   command->add_option("--damping-ratio", request.damping_ratio,

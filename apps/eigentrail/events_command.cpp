@@ -70,8 +70,7 @@ void print_events_json(const LociFile& loci) {
 /// The remark on an event; empty if this version of the program does not know its kind.
 std::string remark_on(const LociEvent& event) {
   const EventKindInfo* kind = find_event_kind(event.kind);
-  if (kind == nullptr) return "";
-  return kind->remark({event.half_width, event.puiseux, event.direction, event.value});
+  return kind == nullptr ? "" : kind->remark(event);
 }
 
 void print_events_table(const LociFile& loci) {

@@ -111,8 +111,7 @@ void print_states(std::FILE* to, const Model& model) {
   std::vector<std::vector<std::string>> rows;
   std::size_t next = description.coordinate_names.size() - static_cast<std::size_t>(count);
   for (const EffectHelp& help : effect_reference()) {
-    const auto effect = std::find_if(description.effects.begin(), description.effects.end(),
-                                     [&](const Effect& e) { return e.name == help.name; });
+    const auto effect = std::ranges::find(description.effects, help.name, &Effect::name);
     for (int i = 0; effect != description.effects.end() && i < effect->states; ++i, ++next)
       rows.push_back({"  " + printable(description.coordinate_names[next]),
                       description.coordinate_units[next],

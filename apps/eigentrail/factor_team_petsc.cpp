@@ -34,9 +34,9 @@ struct Command {
   Step step = Step::stop;
   std::int64_t solver = 0;  ///< number of the factors
   std::int64_t size = 0;
-  std::int64_t symmetric = 0;   ///< factor, estimate
-  std::int64_t analyzed = 0;    ///< factor
-  std::int64_t transposed = 0;  ///< solve
+  SparseKind kind = SparseKind::general;  ///< factor, estimate
+  bool analyzed = false;                  ///< factor
+  bool transposed = false;                ///< solve
 };
 
 /// Waits for the next command. It leaves the core to others: right away where other processes wait for it as
@@ -82,10 +82,6 @@ auto all_or_none(Work&& work) {
 /// The factors of every solver, by its number; the same in all processes.
 using AllFactors = std::map<std::int64_t, PetscFactors>;
 
-SparseKind kind_of(const Command& command) {
-  return command.symmetric != 0 ? SparseKind::symmetric : SparseKind::general;
-}
-
 /// What the processes beside the first one do.
 void serve(AllFactors& factors) {
   while (true) {
@@ -93,13 +89,13 @@ void serve(AllFactors& factors) {
     const auto size = static_cast<PetscInt>(command.size);
     switch (command.step) {
       case Step::factor:
-        factors[command.solver].factor(nullptr, size, kind_of(command), command.analyzed != 0);
+        factors[command.solver].factor(nullptr, size, command.kind, command.analyzed);
         break;
       case Step::solve:
-        factors[command.solver].solve(nullptr, command.transposed != 0);
+        factors[command.solver].solve(nullptr, command.transposed);
         break;
       case Step::estimate:
-        (void)factors[command.solver].estimate(nullptr, size, kind_of(command));
+        (void)factors[command.solver].estimate(nullptr, size, command.kind);
         break;
       case Step::forget:
         factors.erase(command.solver);
@@ -171,10 +167,7 @@ class PetscSolver final : public SparseSolver {
 
   FactorEstimate estimate(const SparseMatrix& A, SparseKind kind) const override {
     const PetscSolver apart(all_, -1, processes_);  // its factors are forgotten
-    send({.step = Step::estimate,
-          .solver = apart.number_,
-          .size = A.rows(),
-          .symmetric = kind == SparseKind::symmetric ? 1 : 0});
+    send({.step = Step::estimate, .solver = apart.number_, .size = A.rows(), .kind = kind});
     FactorEstimate estimate =
         all_or_none([&] { return all_[apart.number_].estimate(&A, static_cast<PetscInt>(A.rows()), kind); });
     estimate.method = method_of(kind);
@@ -185,11 +178,7 @@ class PetscSolver final : public SparseSolver {
   bool factor_real(const SparseMatrix& A, SparseKind kind) {
     const bool analyzed = take_pattern(A) && kind == kind_;
     kind_ = kind;
-    send({.step = Step::factor,
-          .solver = number_,
-          .size = A.rows(),
-          .symmetric = kind == SparseKind::symmetric ? 1 : 0,
-          .analyzed = analyzed ? 1 : 0});
+    send({.step = Step::factor, .solver = number_, .size = A.rows(), .kind = kind, .analyzed = analyzed});
     const FactorOutcome outcome = all_or_none([&] {
       PetscFactors& factors = all_[number_];
       const FactorOutcome result = factors.factor(&A, static_cast<PetscInt>(A.rows()), kind, analyzed);
@@ -213,7 +202,7 @@ class PetscSolver final : public SparseSolver {
   }
 
   void solve_in_place(double* b, bool transposed) const {
-    send({.step = Step::solve, .solver = number_, .transposed = transposed ? 1 : 0});
+    send({.step = Step::solve, .solver = number_, .transposed = transposed});
     all_or_none([&] { all_.at(number_).solve(b, transposed); });
   }
   Matrix solve_columns(Matrix X, bool transposed) const {

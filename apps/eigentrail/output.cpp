@@ -31,10 +31,6 @@ int report_error(const std::exception& error) {
   return exit_code_of(error);
 }
 
-std::string rounded(double value, int digits) {
-  return short_text(value, digits);
-}
-
 std::string percent(double share, int digits) {
   return rounded(100.0 * share + 0.0, digits) + " %";
 }

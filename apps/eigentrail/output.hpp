@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/texts.hpp"
 #include "eigentrail/continuation/data_errors.hpp"
 #include "eigentrail/continuation/event.hpp"
 
@@ -19,7 +20,9 @@ int exit_code_of(const std::exception& error);
 int report_error(const std::exception& error);
 
 /// A number as text with `digits` significant digits.
-std::string rounded(double value, int digits = 6);
+inline std::string rounded(double value, int digits = 6) {
+  return short_text(value, digits);
+}
 
 /// A share of one as text, for example "12.5 %".
 std::string percent(double share, int digits);

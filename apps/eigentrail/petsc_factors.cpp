@@ -55,14 +55,10 @@ void check_petsc(PetscErrorCode code) {
 }
 
 PetscFactors::~PetscFactors() {
-  forget();
+  MatDestroy(&factors_);
   MatDestroy(&matrix_);
   VecDestroy(&right_);
   VecDestroy(&solution_);
-}
-
-void PetscFactors::forget() {
-  MatDestroy(&factors_);
 }
 
 /// Gives each process its share of the columns of A.
@@ -109,7 +105,7 @@ void PetscFactors::distribute(const SparseMatrix* A, PetscInt size) {
 }
 
 void PetscFactors::analyze() {
-  forget();
+  MatDestroy(&factors_);
   MatFactorInfo info;
   check_petsc(MatFactorInfoInitialize(&info));
   const bool symmetric = kind_ == SparseKind::symmetric;
@@ -135,7 +131,7 @@ FactorOutcome PetscFactors::factor(const SparseMatrix* A, PetscInt size, SparseK
     outcome = outcome_of(factors_);
     if (outcome.status == FactorOutcome::Status::done) return outcome;
     // Factors that have failed cannot be computed anew.
-    forget();
+    MatDestroy(&factors_);
     const bool too_little_room = outcome.code == -8 || outcome.code == -9;
     if (!too_little_room) return outcome;
   }

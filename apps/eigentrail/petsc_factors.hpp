@@ -41,7 +41,6 @@ class PetscFactors {
  private:
   void distribute(const SparseMatrix* A, PetscInt size);
   void analyze();
-  void forget();
 
   SparseKind kind_ = SparseKind::general;
   std::vector<int> counts_, begins_;  ///< rows of each process, and the first of them

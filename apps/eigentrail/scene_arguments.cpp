@@ -5,6 +5,7 @@
 
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/scene/settings.hpp"
+#include "eigentrail/scene/traced_parameter.hpp"
 #include "values.hpp"
 
 namespace eigentrail::app {
@@ -78,6 +79,11 @@ void add_plane(CLI::App& command, PlaneArguments& arguments) {
   add_override(command, arguments, "to", "where it ends");
   for (const std::string key : {"from", "to"})
     add_text(command, "--first-" + key, arguments.first, key, "former name of --" + key)->group("");
+}
+
+std::string SceneArguments::traced(const Scene& of) const {
+  const auto given = options.find("parameter");
+  return given == options.end() ? traced_parameter(of) : given->second;
 }
 
 std::pair<double, double> PlaneArguments::second_range(const Scene& of) {

@@ -19,6 +19,8 @@ struct SceneArguments {
   std::map<std::string, std::string> options;  ///< overrides of the scene's [trace]
 
   OptionTexts overrides() const { return {options.begin(), options.end()}; }
+  /// The traced parameter: that of the options, else the scene's.
+  std::string traced(const Scene& of) const;
 };
 
 /// Of commands over a window of the traced parameter and a second one.

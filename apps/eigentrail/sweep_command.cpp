@@ -190,8 +190,7 @@ struct SweepArguments : SceneArguments {
 /// Reads the texts of --vary.
 Combinations read_combinations(const SweepArguments& arguments, const Scene& scene) {
   std::vector<Varied> varied;
-  const auto given = arguments.options.find("parameter");
-  const std::string traced = given == arguments.options.end() ? traced_parameter(scene) : given->second;
+  const std::string traced = arguments.traced(scene);
   double runs = 1.0;
   for (const std::string& text : arguments.vary) {
     const std::size_t equals = text.find('=');

@@ -158,8 +158,7 @@ class Processes : public MpiSession {
   void agree(const Outcome& own) {
     if (failed_) return;
     const std::vector<std::int64_t> codes = all_numbers(own.code, size());
-    const auto failed =
-        std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != done; });
+    const auto failed = std::ranges::find_if(codes, [](std::int64_t code) { return code != done; });
     if (failed == codes.end()) return;
     failed_ = true;
     Outcome told{*failed, own.bytes};

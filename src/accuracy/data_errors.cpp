@@ -76,9 +76,7 @@ std::vector<EigenTriple> generalized(Matrix a, Matrix b) {
 
 /// Replaces the left vectors of equal eigenvalues by combinations with Y^H P'(s) Z diagonal.
 void make_biorthogonal(std::vector<EigenTriple>& all, const Matrix& M, const Matrix& C) {
-  std::sort(all.begin(), all.end(), [](const EigenTriple& a, const EigenTriple& b) {
-    return std::pair(a.s.imag(), a.s.real()) < std::pair(b.s.imag(), b.s.real());
-  });
+  std::ranges::sort(all, {}, [](const EigenTriple& one) { return std::pair(one.s.imag(), one.s.real()); });
   for (std::size_t begin = 0; begin < all.size();) {
     std::size_t end = begin + 1;
     while (end < all.size() && std::abs(all[end].s - all[begin].s) <= equal * std::abs(all[begin].s)) ++end;
@@ -195,11 +193,8 @@ class ErrorSampler {
     std::vector<Eigen::Index> modes;
     for (Eigen::Index i = 0; i < s.size(); ++i) {
       if (!std::isfinite(s[i].real()) || !std::isfinite(s[i].imag())) continue;
-      const auto nearest =
-          std::min_element(all.begin(), all.end(), [&](const EigenTriple& a, const EigenTriple& b) {
-            return std::abs(a.s - s[i]) < std::abs(b.s - s[i]);
-          });
-      chosen.push_back(*nearest);
+      const auto distance = [&](const EigenTriple& one) { return std::abs(one.s - s[i]); };
+      chosen.push_back(*std::ranges::min_element(all, {}, distance));
       modes.push_back(i);
     }
     const SampleBounds bounds = errors_.between(gap_of(p), chosen);

@@ -90,8 +90,7 @@ int remove_shallow_extrema(const RecordedPath& path, std::vector<Event>& events,
   for (auto& [mode, list] : turns) {
     const std::vector<Turn> ends = ends_of(path, errors, mode);
     list.insert(list.end(), ends.begin(), ends.end());
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Turn& a, const Turn& b) { return a.place < b.place; });
+    std::ranges::stable_sort(list, {}, &Turn::place);
     for (const std::size_t event : shallow(list)) remove[event] = true;
   }
   std::vector<Event> kept;
@@ -111,8 +110,7 @@ int remove_shallow_extrema(const RecordedPath& path, std::vector<Event>& events,
 bool is_reached(const FrequencyBand& band, const RecordedPath& path, const std::vector<Event>& events) {
   const auto frequency = path.eigenvalues.imag().array();
   return (frequency >= band.lowest && frequency <= band.highest).any() ||
-         std::any_of(events.begin(), events.end(),
-                     [](const Event& event) { return event.kind == EventKind::band_edge; });
+         std::ranges::find(events, EventKind::band_edge, &Event::kind) != events.end();
 }
 
 /// Notes where a range ends at no special point: one was missed, or none could be located.

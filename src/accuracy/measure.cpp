@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -213,9 +212,8 @@ GridRuns measure_grid(const TraceSetup& setup, const ReferenceSet& reference, Me
   GridLoci loci;
   std::vector<double> seconds;
   for (int i = 0; i < repeat; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const StageTimer timer(seconds.emplace_back());
     loci = method == Method::qz ? qz_grid(problem, p, modes) : corrected_grid(problem, p, modes, method);
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   run.seconds = median(seconds);
   run.completed = loci.completed;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "eigentrail/accuracy/data_errors.hpp"
 #include "eigentrail/continuation/operating_point.hpp"
@@ -68,8 +69,7 @@ std::vector<Suggestion> suggest_samples(const TraceSetup& setup) {
     const double place = errors->place_of_largest_error(i, from * factor, to * factor) / factor;
     all.push_back(suggestion_at(setup, short_number(place, to - from)));
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Suggestion& a, const Suggestion& b) { return a.error > b.error; });
+  std::ranges::stable_sort(all, std::greater(), &Suggestion::error);
   return all;
 }
 

@@ -67,6 +67,11 @@ inline std::string enumerated(const std::vector<std::string>& items, std::string
   return all;
 }
 
+/// "1 file", "3 files".
+inline std::string count_of(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 /// The number that a text is; nothing for other texts.
 template <class Number>
 std::optional<Number> parsed_number(std::string_view text) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "core/texts.hpp"
 #include "eigentrail/core/errors.hpp"
@@ -32,13 +33,13 @@ constexpr double mass_form = 1e-3;
 class BeamDynImport {
  public:
   explicit BeamDynImport(const ImportRequest& request) : request_(request) {
-    auto files =
+    std::optional<BeamDynAxis> axis;
+    std::tie(axis, blade_) =
         read_blade_files(request.files, "BeamDyn", "kp_total", parse_beamdyn_axis, parse_beamdyn_blade);
-    blade_ = std::move(*files.blade);
-    if (!files.main)
+    if (!axis)
       throw InputError(blade_.path +
                        ": is BeamDyn's blade file; give its main file with the key points, too");
-    axis_ = std::move(*files.main);
+    axis_ = std::move(*axis);
     fractions_of_points();
   }
 

@@ -92,7 +92,7 @@ class DmigReader {
     const auto form = whole_number_of(fields[2]), type = whole_number_of(fields[3]);
     if (!form || !type || *type < 1 || *type > 4)
       lines_.fail("matrix " + printable(name) + ": expected a form and a type from 1 to 4 behind the 0");
-    DmigMatrix matrix{name, *form == 6, *type == 1};
+    DmigMatrix matrix{{name, {}, *type == 1, 0, {}}, *form == 6};
     if (*type > 2)
       matrix.fault = "is complex (type " + std::to_string(*type) + "); expected real numbers";
     else if (*form != 1 && *form != 6)

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eigentrail/core/types.hpp"
+#include "import/op4.hpp"
 
 namespace eigentrail {
 
@@ -27,13 +27,10 @@ struct DmigEntry {
   double value = 0.0;
 };
 
-struct DmigMatrix {
-  std::string name;
+/// A matrix as those of OUTPUT4, with entries in place of its values. `digits` are the most of an entry; with
+/// a fault the entries are not kept.
+struct DmigMatrix : Op4Matrix {
   bool symmetric = false;  ///< entries stand for their mirror images, too
-  bool single = false;     ///< single precision
-  int digits = 0;          ///< most digits of an entry, as printed
-  /// Why the matrix cannot be used: complex, rectangular. Its entries are not kept.
-  std::string fault = {};
   std::vector<DmigEntry> entries = {};
 };
 

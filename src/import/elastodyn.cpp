@@ -57,10 +57,9 @@ void warn(const ElastoDynBlade& blade, std::vector<std::string>& warnings) {
 }
 
 Imported read_elastodyn(const ImportRequest& request) {
-  const auto files =
+  const auto [main_file, blade] =
       read_blade_files(request.files, "ElastoDyn", "TipRad", parse_elastodyn_rotor, parse_elastodyn_blade);
-  const ElastoDynBlade& blade = *files.blade;
-  const ElastoDynRotor rotor = files.main.value_or(ElastoDynRotor{});
+  const ElastoDynRotor rotor = main_file.value_or(ElastoDynRotor{});
   BladeScene scene;
   scene.hub_radius = number_option(request, "hub-radius", rotor.hub_radius, false);
   scene.length = number_option(request, "length", rotor.tip_radius - rotor.hub_radius, false);
@@ -84,7 +83,7 @@ Imported read_elastodyn(const ImportRequest& request) {
                               short_text(scene.hub_radius, 6) + " m; mass times " +
                               short_text(blade.mass_factor, 6));
   result.understood.push_back("rotor speed 0 to " + short_text(scene.largest_speed, 6) + " rpm");
-  if (!files.main && !request.options.contains("hub-radius"))
+  if (!main_file && !request.options.contains("hub-radius"))
     result.warnings.emplace_back(
         "the hub radius is taken as 0; give --hub-radius, or ElastoDyn's main file, too");
   warn(blade, result.warnings);

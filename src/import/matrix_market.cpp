@@ -1,7 +1,6 @@
 // Matrices from files of the Matrix Market: powers of the parameter (M0.mtx, K0.mtx, K2.mtx), or samples that
 // a table of files lists.
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <regex>
 
@@ -27,13 +26,6 @@ struct Coefficient {
 
 /// Sparse matrices with fewer rows are stored as dense ones.
 constexpr Eigen::Index least_sparse_rows = 151;
-
-const std::array<std::pair<char, std::vector<SystemMatrix> PolynomialData::*>, 5> coefficients{
-    {{'M', &PolynomialData::M},
-     {'C', &PolynomialData::C},
-     {'K', &PolynomialData::K},
-     {'E', &PolynomialData::E},
-     {'A', &PolynomialData::A}}};
 
 std::string size_text(const SystemMatrix& matrix) {
   return std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols());
@@ -169,10 +161,10 @@ class MarketImport {
       throw InputError("matrix-market: no matrix has a power of the parameter; expected one such as K1.mtx");
     result_.parameter = parameter_option(request_, "p");
     PolynomialData& family = result_.family.emplace();
-    for (const auto& [letter, list] : coefficients) {
+    for (const auto& [name, list] : polynomial_matrices) {
       std::string powers;
       for (const Coefficient& one : all) {
-        if (one.letter != letter) continue;
+        if (one.letter != *name) continue;
         std::vector<SystemMatrix>& own = family.*list;
         const auto size = static_cast<std::size_t>(one.matrix.size());
         if (one.matrix.is_sparse()) {
@@ -185,7 +177,7 @@ class MarketImport {
         powers += (powers.empty() ? "" : ", ") + std::to_string(one.power);
       }
       if (!powers.empty())
-        result_.understood.push_back(std::string(1, letter) + ", power" + (powers.size() > 1 ? "s " : " ") +
+        result_.understood.push_back(std::string(name) + ", power" + (powers.size() > 1 ? "s " : " ") +
                                      powers + " of " + result_.parameter);
     }
     if (const auto nonzeros = sparse_entries(all))

@@ -34,10 +34,8 @@ const std::array<Role, 3> roles{
     {{'M', "mass", &SampledData::M}, {'B', "damping", &SampledData::C}, {'K', "stiffness", &SampledData::K}}};
 
 /// A matrix of either kind of file.
-struct NastranMatrix {
+struct NastranMatrix : DmigMatrix {
   std::string file;
-  Op4Matrix dense;         ///< its name, fault and digits hold for both kinds
-  DmigMatrix bulk = {};    ///< with entries if it is DMIG
   bool from_bulk = false;  ///< it is DMIG
 };
 
@@ -127,13 +125,10 @@ class NastranImport {
     const bool op4 = binary || equal_words(std::filesystem::path(file).extension().string(), ".op4");
     if (op4) {
       for (Op4Matrix& one : parse_op4(bytes, file, [this](const std::string& name) { return wanted(name); }))
-        result.push_back({file, std::move(one)});
+        result.push_back({{std::move(one)}, file});
       return result;
     }
-    for (DmigMatrix& one : parse_dmig(bytes, file)) {
-      const Op4Matrix both{one.name, {}, one.single, one.digits, one.fault};
-      result.push_back({file, both, std::move(one), true});
-    }
+    for (DmigMatrix& one : parse_dmig(bytes, file)) result.push_back({std::move(one), file, true});
     if (result.empty())
       throw InputError(file +
                        ": has no matrices: no entries DMIG; files of OUTPUT4 are known by their name, .op4");
@@ -144,29 +139,27 @@ class NastranImport {
   const NastranMatrix* chosen(const std::vector<NastranMatrix>& all, const Role& role) const {
     const NastranMatrix* result = nullptr;
     for (const NastranMatrix& one : all) {
-      if (!may_be(role, one.dense.name)) continue;
+      if (!may_be(role, one.name)) continue;
       if (result != nullptr)
-        throw InputError(one.file + ": the " + role.option + " may be " + printable(result->dense.name) +
-                         (result->file == one.file ? "" : " of " + result->file) + " or " +
-                         printable(one.dense.name) +
-                         (equal_words(result->dense.name, one.dense.name)
-                              ? "; files of one operating point have each matrix once"
-                              : "; name it with --" + std::string(role.option)));
+        throw InputError(
+            one.file + ": the " + role.option + " may be " + printable(result->name) +
+            (result->file == one.file ? "" : " of " + result->file) + " or " + printable(one.name) +
+            (equal_words(result->name, one.name) ? "; files of one operating point have each matrix once"
+                                                 : "; name it with --" + std::string(role.option)));
       result = &one;
     }
     const std::string asked = request_.option(role.option);
     if (result == nullptr && !asked.empty() && asked != "none")
       throw InputError(all.front().file + ": --" + role.option + ": no matrix '" + printable(asked) + "'; " +
                        names_of(all));
-    if (result != nullptr && !result->dense.fault.empty())
-      throw InputError(result->file + ": matrix " + printable(result->dense.name) + " " +
-                       result->dense.fault);
+    if (result != nullptr && !result->fault.empty())
+      throw InputError(result->file + ": matrix " + printable(result->name) + " " + result->fault);
     return result;
   }
 
   static std::string names_of(const std::vector<NastranMatrix>& all) {
     constexpr std::size_t most = 20;
-    const auto name = [](const NastranMatrix& one) { return printable(one.dense.name); };
+    const auto name = [](const NastranMatrix& one) { return printable(one.name); };
     return "found " + joined(first_items(all, most), ", ", name) + (all.size() > most ? ", ..." : "");
   }
 
@@ -199,20 +192,19 @@ class NastranImport {
             const std::array<const NastranMatrix*, roles.size()>& own) {
     for (const NastranMatrix* one : own) {
       if (one == nullptr) continue;
-      digits_ = std::min(digits_, one->dense.digits);
-      single_ = single_ || one->dense.single;
+      digits_ = std::min(digits_, one->digits);
+      single_ = single_ || one->single;
     }
     if (!first_file_.empty()) return;
     first_file_ = all.front().file;
     for (std::size_t i = 0; i < roles.size(); ++i) {
-      if (own[i] != nullptr)
-        result_.understood.push_back(std::string(roles[i].option) + " " + own[i]->dense.name);
+      if (own[i] != nullptr) result_.understood.push_back(std::string(roles[i].option) + " " + own[i]->name);
     }
     std::string others;
     for (const NastranMatrix& one : all) {
-      if (std::ranges::find(own, &one) == own.end()) others += (others.empty() ? "" : ", ") + one.dense.name;
-      if (one.dense.name.starts_with("K4"))
-        result_.warnings.push_back(one.dense.name + " is structural damping, which is not read");
+      if (std::ranges::find(own, &one) == own.end()) others += (others.empty() ? "" : ", ") + one.name;
+      if (one.name.starts_with("K4"))
+        result_.warnings.push_back(one.name + " is structural damping, which is not read");
     }
     if (!others.empty()) result_.understood.push_back("not read: " + others);
   }
@@ -220,8 +212,8 @@ class NastranImport {
   static void check_kinds(const std::array<const NastranMatrix*, roles.size()>& own) {
     for (const NastranMatrix* one : own) {
       if (one != nullptr && one->from_bulk != own[2]->from_bulk)
-        throw InputError(one->file + ": matrix " + printable(one->dense.name) + " and " +
-                         printable(own[2]->dense.name) + " of " + own[2]->file +
+        throw InputError(one->file + ": matrix " + printable(one->name) + " and " + printable(own[2]->name) +
+                         " of " + own[2]->file +
                          " are DMIG and OUTPUT4; the order of their rows cannot be compared");
     }
   }
@@ -238,10 +230,10 @@ class NastranImport {
     SampledData& data = result_.samples;
     for (std::size_t i = 0; i < roles.size(); ++i) {
       if (own[i] == nullptr) continue;
-      const Matrix& values = own[i]->dense.values;
+      const Matrix& values = own[i]->values;
       const Eigen::Index n = data.size() == 0 ? values.rows() : data.size();
       if (values.rows() != n)
-        throw InputError(own[i]->file + ": matrix " + printable(own[i]->dense.name) + " has " +
+        throw InputError(own[i]->file + ": matrix " + printable(own[i]->name) + " has " +
                          std::to_string(values.rows()) + " rows; expected " + std::to_string(n) + ", as in " +
                          first_file_);
       count(own[i]->file, static_cast<std::size_t>(n));
@@ -254,7 +246,7 @@ class NastranImport {
     std::vector<DmigFreedom> freedoms;
     for (const NastranMatrix* one : own) {
       if (one == nullptr) continue;
-      for (const DmigEntry& entry : one->bulk.entries) {
+      for (const DmigEntry& entry : one->entries) {
         freedoms.push_back(entry.row);
         freedoms.push_back(entry.column);
       }
@@ -277,7 +269,7 @@ class NastranImport {
       if (own[i] == nullptr) continue;
       count(own[i]->file, freedoms.size());
       try {
-        (data.*roles[i].samples).push_back(dense_matrix(own[i]->bulk, freedoms));
+        (data.*roles[i].samples).push_back(dense_matrix(*own[i], freedoms));
       } catch (const std::invalid_argument& error) {
         throw InputError(own[i]->file + ": " + error.what());
       }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/import/importer.hpp"
@@ -31,37 +32,30 @@ double speed_option(const ImportRequest& request, double usual);
 /// A file that another one names, in the folder of that one.
 std::string beside(const std::string& path, const std::string& named);
 
-/// The main file and the blade file of a program.
+/// The main file of `program`, if it is among the files, and its blade file, which the main file may name. A
+/// main file has a value called `mark`. Throws InputError.
 template <class Main, class Blade>
-struct BladeFiles {
-  std::optional<Main> main;
+std::pair<std::optional<Main>, Blade> read_blade_files(
+    const std::vector<std::string>& paths, const std::string& program, std::string_view mark,
+    Main (*read_main)(std::string_view, const std::string&),
+    Blade (*read_blade)(std::string_view, const std::string&)) {
+  std::optional<Main> main_file;
   std::optional<Blade> blade;
-};
-
-/// Reads files of `program`, and a blade file that only the main file names. A main file has a value called
-/// `mark`. Throws InputError.
-template <class Main, class Blade>
-BladeFiles<Main, Blade> read_blade_files(const std::vector<std::string>& paths, const std::string& program,
-                                         std::string_view mark,
-                                         Main (*read_main)(std::string_view, const std::string&),
-                                         Blade (*read_blade)(std::string_view, const std::string&)) {
-  BladeFiles<Main, Blade> files;
   for (const std::string& path : paths) {
     const std::string text = read_text_file(path);
     const bool is_main = names_value(text, mark);
-    if (is_main && files.main) throw InputError(path + ": a second main file of " + program + "; give one");
-    if (!is_main && files.blade) throw InputError(path + ": a second blade file; give one, of one blade");
+    if (is_main && main_file) throw InputError(path + ": a second main file of " + program + "; give one");
+    if (!is_main && blade) throw InputError(path + ": a second blade file; give one, of one blade");
     if (is_main)
-      files.main = read_main(text, path);
+      main_file = read_main(text, path);
     else
-      files.blade = read_blade(text, path);
+      blade = read_blade(text, path);
   }
-  if (files.blade) return files;
-  if (files.main->blade_file.empty())
-    throw InputError(files.main->path + ": names no BldFile(1); give the blade file, too");
-  const std::string path = beside(files.main->path, files.main->blade_file);
-  files.blade = read_blade(read_text_file(path), path);
-  return files;
+  if (blade) return {std::move(main_file), *std::move(blade)};
+  if (main_file->blade_file.empty())
+    throw InputError(main_file->path + ": names no BldFile(1); give the blade file, too");
+  const std::string path = beside(main_file->path, main_file->blade_file);
+  return {std::move(main_file), read_blade(read_text_file(path), path)};
 }
 
 inline bool has_nonzero(const std::vector<double>& values) {

@@ -62,10 +62,6 @@ std::vector<std::string_view> words_of(std::string_view line, std::string_view s
   }
 }
 
-std::string count_of(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::optional<double> number_of(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   std::string text(word);

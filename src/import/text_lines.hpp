@@ -37,9 +37,6 @@ std::string shown(std::string_view word);
 std::vector<std::string_view> words_of(std::string_view line, std::string_view separators = " \t\r\f\v",
                                        std::string_view quotes = "");
 
-/// "1 file", "3 files".
-std::string count_of(std::size_t count, const std::string& what);
-
 /// A decimal number with exponent E, D or, as Fortran prints long exponents, with a sign only (1.5-101).
 /// Empty if the word is anything else.
 std::optional<double> number_of(std::string_view word);

@@ -8,7 +8,6 @@
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/import/importer.hpp"
-#include "eigentrail/import/write_samples.hpp"
 #include "eigentrail/scene/limits.hpp"
 #include "eigentrail/scene/units.hpp"
 #include "eigentrail/store/output_file.hpp"
@@ -105,11 +104,8 @@ void check(const PolynomialData& family) {
     throw std::invalid_argument("expected K with M, C or both, or A and optionally E");
   if (second_order && !family.E.empty()) throw std::invalid_argument("E cannot stand beside M, C or K");
   if (!second_order && family.A.empty()) throw std::invalid_argument("no matrix K or A");
-  list(family.M, "M", true);
-  list(family.C, "C", true);
-  list(family.K, "K", true);
-  list(family.E, "E", true);
-  list(family.A, "A", !second_order);
+  for (const auto& [name, coefficients] : polynomial_matrices)
+    list(family.*coefficients, name, *name != 'A' || !second_order);
   const auto n = static_cast<std::size_t>(family_size(family));
   if (!family.state_names.empty() && family.state_names.size() != n)
     throw std::invalid_argument(std::to_string(family.state_names.size()) + " names for " +
@@ -131,10 +127,9 @@ void write_sparse(Hdf5Writer& file, const std::string& name, const SparseMatrix&
 std::string family_file(const PolynomialData& family) {
   check(family);
   Hdf5Writer file = Hdf5Writer::in_memory("matrices");
-  for (const auto& [name, coefficients] :
-       {std::pair("M", &family.M), {"C", &family.C}, {"K", &family.K}, {"E", &family.E}, {"A", &family.A}}) {
-    for (std::size_t power = 0; power < coefficients->size(); ++power) {
-      const SystemMatrix& coefficient = (*coefficients)[power];
+  for (const auto& [name, coefficients] : polynomial_matrices) {
+    for (std::size_t power = 0; power < (family.*coefficients).size(); ++power) {
+      const SystemMatrix& coefficient = (family.*coefficients)[power];
       if (coefficient.size() == 0) continue;
       const std::string dataset = std::string(name) + "/" + std::to_string(power);
       if (coefficient.is_sparse()) {
@@ -184,10 +179,6 @@ std::string scene_text(const Imported& imported, const std::string& file) {
 }
 
 }  // namespace
-
-void write_samples(const std::string& path, const SampledData& data) {
-  write_durably(path, {samples_file(data)});
-}
 
 std::string common_name(const std::vector<std::string>& files) {
   std::string name = std::filesystem::path(files.front()).stem().string();

@@ -139,7 +139,7 @@ double largest_shown(const LociFile& loci) {
   return std::max(beyond * sizes[sizes.size() / 2], std::numeric_limits<double>::min());
 }
 
-PiecewiseOptions options_for(const ModeStretch& mode, const Closeness& close, double largest) {
+CurveOptions options_for(const ModeStretch& mode, const Closeness& close, double largest) {
   Eigen::AlignedBox3d seen;  // of the real part, the imaginary part and the magnitude
   for (std::size_t i = 0; i < mode.n_steps(); ++i) {
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
@@ -203,7 +203,7 @@ ModeCurves approximate_modes(const LociFile& loci, const std::vector<double>& pl
 }
 
 Json parameter_data(const LociFile& loci, const std::vector<double>& places) {
-  PiecewiseOptions options;
+  CurveOptions options;
   options.real_tolerance = options.imag_tolerance =
       std::max(1e-11 * (loci.highest() - loci.lowest()), std::numeric_limits<double>::min());
   options.largest = std::numeric_limits<double>::max();

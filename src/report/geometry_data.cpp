@@ -31,13 +31,6 @@ Json carriers(const std::vector<std::string>& coordinates) {
   return list;
 }
 
-/// What a table has under a key, if it is of this kind; else null.
-template <class Kind>
-const Kind* find(const Table& table, const char* key) {
-  const Value* value = table.find(key);
-  return value != nullptr ? std::get_if<Kind>(&value->data) : nullptr;
-}
-
 class Figure {
  public:
   Figure(const LociFile& loci, const std::vector<std::size_t>& nodes)
@@ -83,10 +76,10 @@ class Figure {
 
   void read_bodies() {
     for (const Table* table : tables(scene_, "body")) {
-      const auto* text = find<std::string>(*table, "name");
+      const auto* text = entry_as<std::string>(*table, "name");
       if (text == nullptr || !carrier(*text)) continue;
       if (const Value* centre = table->find("centre")) add_marker(*text, "centre", *centre);
-      const auto* markers = find<Table>(*table, "markers");
+      const auto* markers = entry_as<Table>(*table, "markers");
       if (markers == nullptr) continue;
       for (const auto& [marker, at] : markers->entries) add_marker(*text, marker, at);
     }
@@ -115,13 +108,13 @@ class Figure {
   }
 
   std::optional<std::size_t> place(const Table& table, const char* key) {
-    if (const auto* name = find<std::string>(table, key)) {
+    if (const auto* name = entry_as<std::string>(table, key)) {
       if (const auto marker = markers_.find(*name); marker != markers_.end()) return marker->second;
       if (const auto whole = carrier(*name)) return markers_[*name] = add_place(whole, {});
       return std::nullopt;
     }
-    if (const auto* inner = find<Table>(table, key)) {
-      const auto* name = find<std::string>(*inner, "body");
+    if (const auto* inner = entry_as<Table>(table, key)) {
+      const auto* name = entry_as<std::string>(*inner, "body");
       const auto local = triple(inner->find("at"));
       if (name == nullptr || !local || !carrier(*name)) return std::nullopt;
       return add_place(carrier(*name), *local);

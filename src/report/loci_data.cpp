@@ -50,11 +50,10 @@ Json events_data(const LociFile& loci) {
     const LociEvent& event = loci.events[i];
     // A file may contain kinds of events that this version does not know.
     const EventKindInfo* kind = find_event_kind(event.kind);
-    const EventFacts facts{event.half_width, event.puiseux, event.direction, event.value};
     Json item{{"kind", kind != nullptr ? std::string(kind->long_name) : event.kind},
               {"symbol", kind != nullptr ? kind->symbol : "circle-open-dot"},
               {"labelled", kind != nullptr && kind->labelled},
-              {"remark", kind != nullptr ? kind->remark(facts) : ""},
+              {"remark", kind != nullptr ? kind->remark(event) : ""},
               {"parameter", event.parameter},
               {"real", event.s.real()},
               {"imag", event.s.imag()},

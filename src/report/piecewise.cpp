@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "model/piecewise_chebyshev.hpp"
 #include "model/rational_interpolant.hpp"
 
 namespace eigentrail {
@@ -24,19 +24,16 @@ constexpr double shortest_in_gap = 1e-3;
 using PieceValues = std::vector<Complex>;
 
 /// The Chebyshev-Lobatto points on [0, 1].
-std::vector<double> places(std::size_t degree) {
+std::vector<double> places(int degree) {
   std::vector<double> u;
-  for (std::size_t j = 0; j <= degree; ++j) {
-    u.push_back(0.5 *
-                (1.0 - std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree))));
-  }
+  for (int j = 0; j <= degree; ++j) u.push_back(0.5 * (1.0 - chebyshev_point(j, degree)));
   return u;
 }
 
 class Approximation {
  public:
   Approximation(const std::vector<double>& nodes, const std::function<Complex(std::size_t, double)>& value,
-                const PiecewiseOptions& options)
+                const CurveOptions& options)
       : nodes_(nodes), value_(value), options_(options) {}
 
   std::vector<PiecewiseCurve> run() {
@@ -130,10 +127,10 @@ class Approximation {
 
   const std::vector<double>& nodes_;
   const std::function<Complex(std::size_t, double)>& value_;
-  const PiecewiseOptions& options_;
-  std::vector<double> places_ = places(options_.degree);
-  RationalInterpolant polynomial_{places_,
-                                  static_cast<int>(options_.degree)};  ///< of the degree of all places
+  const CurveOptions& options_;
+  int degree_ = static_cast<int>(options_.degree);
+  std::vector<double> places_ = places(degree_);
+  RationalInterpolant polynomial_{places_, degree_};  ///< of the degree of all places
   double length_ = nodes_.back() - nodes_.front();
   std::size_t halved_ = 0;
   std::vector<PiecewiseCurve> curves_;
@@ -143,7 +140,7 @@ class Approximation {
 
 std::vector<PiecewiseCurve> approximate(const std::vector<double>& nodes,
                                         const std::function<Complex(std::size_t, double)>& value,
-                                        const PiecewiseOptions& options) {
+                                        const CurveOptions& options) {
   return nodes.size() < 2 ? std::vector<PiecewiseCurve>{} : Approximation(nodes, value, options).run();
 }
 

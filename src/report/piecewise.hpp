@@ -19,7 +19,7 @@ struct PiecewiseCurve {
   std::vector<Complex> values;  ///< d * pieces + 1: neighbouring pieces share the value at their common end
 };
 
-struct PiecewiseOptions {
+struct CurveOptions {
   std::size_t degree = 6;       ///< d >= 2
   double real_tolerance = 0.0;  ///< absolute error of the real part, > 0
   double imag_tolerance = 0.0;  ///< absolute error of the imaginary part, > 0
@@ -31,6 +31,6 @@ struct PiecewiseOptions {
 /// curves if parts are left out, none if everything is.
 std::vector<PiecewiseCurve> approximate(const std::vector<double>& nodes,
                                         const std::function<Complex(std::size_t, double)>& value,
-                                        const PiecewiseOptions& options);
+                                        const CurveOptions& options);
 
 }  // namespace eigentrail

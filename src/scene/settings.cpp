@@ -55,8 +55,7 @@ std::string as_toml(const Scene& scene, const Parameter& parameter, const std::s
 
 /// Whether the scene declares a parameter; that of a family of matrices need not be declared.
 bool declares(const Scene& scene, const std::string& name) {
-  const Value* parameters = scene.root.find("parameters");
-  const auto* table = parameters == nullptr ? nullptr : std::get_if<Table>(&parameters->data);
+  const auto* table = entry_as<Table>(scene.root, "parameters");
   return table != nullptr && table->find(name) != nullptr;
 }
 

@@ -15,15 +15,6 @@ namespace {
 /// Number of values of each parameter at which masses, lengths and the direction of gravity are checked.
 constexpr int checked_points = 9;
 
-OptionTexts trace_overrides(const BoundaryRequest& request) {
-  OptionTexts texts;
-  if (request.parameter) texts.emplace_back("parameter", *request.parameter);
-  if (request.first_from) texts.emplace_back("from", exact_text(*request.first_from));
-  if (request.first_to) texts.emplace_back("to", exact_text(*request.first_to));
-  if (request.tolerance) texts.emplace_back("tolerance", exact_text(*request.tolerance));
-  return texts;
-}
-
 void check_numbers(const BoundaryOptions& options) {
   if (options.lines < 0 || options.lines > 1000)
     throw InputError("--lines: must lie between 0 and 1000; found " + std::to_string(options.lines));
@@ -36,11 +27,11 @@ void check_numbers(const BoundaryOptions& options) {
 
 BoundarySetup prepare_boundary(Scene scene, const BoundaryRequest& request) {
   check_top_level(scene);
-  require_first_range(scene, trace_overrides(request));
+  require_first_range(scene, request.overrides);
   BoundarySetup setup{std::move(scene), {}, nullptr};
   BoundaryOptions& options = setup.options;
   std::set<int> used;
-  options.trace = read_trace_options(setup.scene, trace_overrides(request), used);
+  options.trace = read_trace_options(setup.scene, request.overrides, used);
   options.second = request.second;
   check_second_range(request.from, request.to);
   std::tie(options.second_from, options.second_to) = std::minmax(request.from, request.to);

@@ -134,10 +134,10 @@ void read_events(const Hdf5File& file, LociFile& loci) {
     require(kind != std::string::npos && modes > kind, loci, "events");
     require(nodes[i] >= 0 && nodes[i] < static_cast<std::int64_t>(loci.n_nodes()), loci, "event_node");
     const auto row = static_cast<Eigen::Index>(i);
-    loci.events.push_back({lines[i].substr(0, kind), parameters[i], eigenvalues[i],
-                           lines[i].substr(modes + 1), half_widths[i], puiseux[i],
-                           static_cast<int>(directions[i]), values[i], static_cast<int>(nodes[i]),
-                           shapes.row(row), sensitivities.row(row), shifts.row(row)});
+    const EventFacts facts{half_widths[i], puiseux[i], static_cast<int>(directions[i]), values[i]};
+    loci.events.push_back({facts, lines[i].substr(0, kind), parameters[i], eigenvalues[i],
+                           lines[i].substr(modes + 1), static_cast<int>(nodes[i]), shapes.row(row),
+                           sensitivities.row(row), shifts.row(row)});
   }
 }
 

@@ -108,8 +108,7 @@ LociTables::LociTables(Hdf5Writer file, const Model& model, const TraceOptions& 
 }
 
 LociTables::Column& LociTables::column_called(const std::string& dataset) {
-  return *std::find_if(columns_.begin(), columns_.end(),
-                       [&](const Column& column) { return column.dataset.name == dataset; });
+  return *std::ranges::find(columns_, dataset, [](const Column& one) { return one.dataset.name; });
 }
 
 std::size_t LociTables::width(const Column& column) const {

@@ -26,11 +26,6 @@
 namespace eigentrail {
 namespace {
 
-/// Removes all events.
-void clear_events(Hdf5Writer& file) {
-  for (const std::string& name : datasets_of_events()) file.extend(name, 0, 0);
-}
-
 /// Writes the events from number `first` on to the datasets along the dimension `event`; those before have
 /// been written already.
 void write_events(Hdf5Writer& file, const std::vector<Event>& events, std::size_t first) {
@@ -365,7 +360,7 @@ void LociWriter::finish(const TraceResult& result, const std::vector<StableRange
   const Hdf5Turn turn;
   // With errors of the data, events that were written may have been taken back.
   if (errors != nullptr && self.events > 0) {
-    clear_events(self.tables.file());
+    for (const std::string& name : datasets_of_events()) self.tables.file().extend(name, 0, 0);
     self.events = 0;
   }
   self.update(result, result.status == TraceStatus::completed ? "completed" : "ended early", true);

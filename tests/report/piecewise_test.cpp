@@ -107,7 +107,7 @@ TEST(PiecewiseCurves, EndAfterAFewHundredPiecesPerStepOfNoise) {
   const auto noise = [](std::size_t i, double t) {
     return Complex(std::sin(1e12 * (static_cast<double>(i) + t)), std::cos(1e13 * t));
   };
-  PiecewiseOptions options;
+  CurveOptions options;
   options.real_tolerance = options.imag_tolerance = tolerance;
   options.largest = 10.0;
   const std::vector<PiecewiseCurve> curves = approximate(nodes, noise, options);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "eigentrail/core/text.hpp"
 #include "eigentrail/stability/boundary.hpp"
 
 namespace eigentrail::test {
@@ -47,7 +48,7 @@ inline BoundaryRequest square_window(double tolerance = 1e-9) {
   request.second = "Q";
   request.from = -1.0;
   request.to = 1.0;
-  request.tolerance = tolerance;
+  request.overrides = {{"tolerance", exact_text(tolerance)}};
   return request;
 }
 
@@ -57,7 +58,7 @@ inline BoundaryResult ziegler_boundaries(double from, double to, double toleranc
   request.second = "Q";
   request.from = from;
   request.to = to;
-  request.tolerance = tolerance;
+  request.overrides = {{"tolerance", exact_text(tolerance)}};
   return boundaries_of(plane_scene(0.0, 3.0,
                                    "M = [[[3, 1], [1, 1]]]\nC = [[[\"2 * Q\", \"-Q\"], [\"-Q\", \"Q\"]]]\n"
                                    "K = [[[\"2 - P\", \"P - 1\"], [-1, 1]]]\n"),

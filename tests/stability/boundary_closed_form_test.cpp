@@ -19,7 +19,7 @@ TEST(BoundaryClosedForm, InternalDampingWithAnisotropy) {
   request.second = "Q";
   request.from = -0.05;
   request.to = 0.05;
-  request.tolerance = tolerance;
+  request.overrides = {{"tolerance", exact_text(tolerance)}};
   const BoundaryResult result =
       boundaries_of(plane_scene(0.0, 6.0,
                                 "M = [[[1, 0], [0, 1]]]\nC = [[[0.03, 0], [0, 0.03]]]\n"

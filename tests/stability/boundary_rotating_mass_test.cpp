@@ -37,11 +37,10 @@ double spectral_abscissa(const Model& model, double omega, double a_n) {
 BoundarySetup prepare_blade(const std::string& second, Place low, Place high, double tolerance) {
   BoundaryRequest request;
   request.second = second;
-  request.first_from = low[0];
-  request.first_to = high[0];
   request.from = low[1];
   request.to = high[1];
-  request.tolerance = tolerance;
+  request.overrides = {
+      {"from", exact_text(low[0])}, {"to", exact_text(high[0])}, {"tolerance", exact_text(tolerance)}};
   return prepare_boundary(read_scene(std::string(EIGENTRAIL_DATA_DIR) + "/scenes/rotating_mass.toml"),
                           request);
 }

@@ -1,11 +1,10 @@
 // Sampled families for tests: functions p -> A(p) sampled at values of p.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <random>
 
-#include "eigentrail/import/write_samples.hpp"
+#include "eigentrail/import/importer.hpp"
 #include "support/folder.hpp"
 #include "support/scenes.hpp"
 
@@ -25,8 +24,10 @@ class SampledScene {
  public:
   explicit SampledScene(const SampledData& data, const std::string& keys = "",
                         const std::string& trace = "") {
-    std::filesystem::remove(file());
-    write_samples(file(), data);
+    Imported imported;
+    imported.parameter = data.parameter_name;
+    imported.samples = data;
+    write_import(imported, folder_.path(), "samples", true);
     const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
     text_ = "[sampled_family]\nfile = \"samples.h5\"\n" + keys + "[trace]\nparameter = \"p\"\n" +
             (trace.empty() ? "from = " + std::to_string(*least) + "\nto = " + std::to_string(*most) +

@@ -107,8 +107,10 @@ def boundary(scene: Source, *, tolerance: Optional[float] = None, damping_ratio:
     first, second = _two_ranges(given)
     low, high = (number(second, end) for end in given.ranges[second])
     from_, to = (number(first, end) for end in given.ranges[first]) if first in given.ranges else (None, None)
+    options = {"parameter": first, "from": from_, "to": to, "tolerance": tolerance}
+    chosen = [(key, option_text(value)) for key, value in options.items() if value is not None]
     return _result(given, progress, lambda show: engine().boundary(
-        given.scene, second, low, high, first, from_, to, tolerance, damping_ratio, lines, show))
+        given.scene, chosen, second, low, high, damping_ratio, lines, show))
 
 
 @checked

@@ -94,14 +94,11 @@ Outcome run_trace(const Scene& scene, const Options& options, const std::optiona
   });
 }
 
-Outcome run_boundary(const Scene& scene, const std::string& second, double from, double to,
-                     const std::optional<std::string>& parameter, std::optional<double> first_from,
-                     std::optional<double> first_to, std::optional<double> tolerance,
-                     std::optional<double> damping_ratio, std::optional<int> lines,
+Outcome run_boundary(const Scene& scene, const Options& options, const std::string& second, double from,
+                     double to, std::optional<double> damping_ratio, std::optional<int> lines,
                      const py::object& progress) {
   return computed(progress, [&](Watch& watch, Outcome& outcome) {
-    const BoundarySetup setup = prepare_boundary(
-        scene, {second, from, to, parameter, first_from, first_to, tolerance, damping_ratio, lines});
+    const BoundarySetup setup = prepare_boundary(scene, {second, from, to, options, damping_ratio, lines});
     outcome.remarks = remarks_on(setup.scene, *setup.model);
     check_boundary_names(setup);
     const BoundaryResult result = find_boundaries(

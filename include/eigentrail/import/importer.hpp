@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eigentrail/core/system_matrix.hpp"
@@ -33,6 +34,14 @@ struct PolynomialData {
   std::string parameter_unit;            ///< empty: none, or not known
   double from = 0.0, to = 1.0;           ///< range of the parameter
 };
+
+/// Names of the matrices, and their coefficients.
+inline constexpr std::pair<const char*, std::vector<SystemMatrix> PolynomialData::*> polynomial_matrices[] = {
+    {"M", &PolynomialData::M},
+    {"C", &PolynomialData::C},
+    {"K", &PolynomialData::K},
+    {"E", &PolynomialData::E},
+    {"A", &PolynomialData::A}};
 
 /// A blade: a scene with a table of stations beside it.
 struct StationData {

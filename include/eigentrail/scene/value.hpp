@@ -38,6 +38,13 @@ struct Value {
   std::string kind() const;
 };
 
+/// What a table has under a key, if it is of this kind; else null.
+template <class Kind>
+const Kind* entry_as(const Table& table, std::string_view key) {
+  const Value* value = table.find(key);
+  return value == nullptr ? nullptr : std::get_if<Kind>(&value->data);
+}
+
 /// Parses TOML. Integers become numbers; dates and times are refused. `path` names the file in messages.
 /// Throws InputError with line and column if the text is not valid TOML or exceeds a limit.
 Table parse_toml(std::string_view text, const std::string& path);

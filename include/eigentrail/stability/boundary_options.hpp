@@ -26,11 +26,9 @@ struct BoundaryOptions {
 struct BoundaryRequest {
   std::string second;
   double from = 0.0, to = 0.0;  ///< range of the second parameter
-  std::optional<std::string> parameter;
-  std::optional<double> first_from, first_to;
-  std::optional<double> tolerance;
-  std::optional<double> damping_ratio;
-  std::optional<int> lines;
+  OptionTexts overrides = {};   ///< of [trace]: parameter, from, to, tolerance
+  std::optional<double> damping_ratio = {};
+  std::optional<int> lines = {};
 };
 
 /// A scene with checked options and its model, ready for find_boundaries.

@@ -9,23 +9,20 @@
 #include <vector>
 
 #include "eigentrail/continuation/data_errors.hpp"
+#include "eigentrail/continuation/event_kinds.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "eigentrail/stability/stable_ranges.hpp"
 
 namespace eigentrail {
 
-/// An event in a loci file.
-struct LociEvent {
+/// An event in a loci file. `half_width` of other events than veerings and `puiseux` of others than
+/// collisions are NaN.
+struct LociEvent : EventFacts {
   std::string kind;
   double parameter = 0.0;
   Complex s;
-  std::string modes;        ///< numbers of the modes from 1, separated by ';'
-  double half_width = 0.0;  ///< of a veering; NaN otherwise
-  Complex puiseux;          ///< of a collision; NaN otherwise
-  // The following members have the meaning of those of Event.
-  int direction = 0;
-  double value = 0.0;
-  int node = 0;
+  std::string modes;          ///< numbers of the modes from 1, separated by ';'
+  int node = 0;               ///< this and what follows as in Event
   ComplexVector shape;        ///< per coordinate
   ComplexVector sensitivity;  ///< ds/dq per parameter q of the scene; NaN where not defined
   Vector shift;  ///< derivative of the event's `parameter` with respect to q; NaN where not defined

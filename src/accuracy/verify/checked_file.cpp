@@ -1,4 +1,4 @@
-#include "accuracy/verify/checked_file.hpp"
+#include "accuracy/verify/comparisons.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,15 +18,12 @@ namespace {
 Event event_of(const LociFile& loci, const LociEvent& stored) {
   const EventKindInfo* kind = find_event_kind(stored.kind);
   if (kind == nullptr) throw InputError(loci.path + ": has a special point of unknown kind " + stored.kind);
-  Event event;
-  event.kind = kind->kind;
-  event.p = stored.parameter;
-  event.s = stored.s;
-  event.half_width = stored.half_width;
-  event.puiseux = stored.puiseux;
-  event.direction = stored.direction;
-  event.value = stored.value;
-  event.node = stored.node;
+  Event event{.kind = kind->kind,
+              .p = stored.parameter,
+              .s = stored.s,
+              .direction = stored.direction,
+              .value = stored.value,
+              .node = stored.node};
   std::istringstream numbers(stored.modes);
   for (std::string number; std::getline(numbers, number, ';');)
     event.modes.push_back(std::atoi(number.c_str()) - 1);
@@ -85,27 +82,13 @@ CheckedFile checked_file(const LociFile& loci, const TraceSetup& setup) {
   return file;
 }
 
-std::string count_text(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
-namespace {
-
-/// The text that a key of a table has; empty if it has none.
-std::string text_of(const Table& table, const char* key) {
-  const Value* value = table.find(key);
-  const auto* text = value != nullptr ? std::get_if<std::string>(&value->data) : nullptr;
-  return text == nullptr ? "" : *text;
-}
-
-}  // namespace
-
 std::string file_of_matrices(const Scene& scene) {
   constexpr std::array<std::pair<const char*, const char*>, 4> keys{
       {{"matrix_family", "file"}, {"sampled_family", "file"}, {"shaft", "stations"}, {"bearing", "table"}}};
   for (const auto& [name, key] : keys) {
     for (const Table* table : tables(scene, name)) {
-      if (const std::string file = text_of(*table, key); !file.empty()) return file;
+      if (const auto* file = entry_as<std::string>(*table, key); file != nullptr && !file->empty())
+        return *file;
     }
   }
   return "";

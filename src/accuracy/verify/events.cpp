@@ -123,7 +123,7 @@ Comparison compare_events(const CheckedFile& file, FreshSolver& solver) {
     if (!fault.empty())
       result.faults.push_back(event_name(event.kind) + " at " + file.at(event.p) + ": " + fault);
   }
-  result.compared = count_text(file.events.size(), "special point") + " against the spectrum there";
+  result.compared = count_of(file.events.size(), "special point") + " against the spectrum there";
   return result;
 }
 

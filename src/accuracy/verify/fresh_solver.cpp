@@ -1,4 +1,4 @@
-#include "accuracy/verify/fresh_solver.hpp"
+#include "accuracy/verify/comparisons.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -63,6 +63,8 @@ std::string indices_text(const Shape& shape, std::size_t index) {
   return text;
 }
 
+/// What differs in the datasets of the file from `traced`, the bytes of a loci file of a new trace. Datasets
+/// that only the first file has do not count: other programs may have added them.
 class Differences {
  public:
   Differences(const CheckedFile& file, std::string_view traced)
@@ -105,7 +107,7 @@ class Differences {
     result_.numbers += stored.size();
     const Shape& shape = shapes.first;
     if (shape != shapes.second)
-      result_.faults.push_back(name + " has " + count_text(stored.size(), "element") + ", in a new trace " +
+      result_.faults.push_back(name + " has " + count_of(stored.size(), "element") + ", in a new trace " +
                                std::to_string(traced.size()));
     const auto common = static_cast<std::ptrdiff_t>(std::min(stored.size(), traced.size()));
     const auto [a, b] = std::mismatch(stored.begin(), stored.begin() + common, traced.begin(),
@@ -135,12 +137,6 @@ class Differences {
   FileDifferences result_;
 };
 
-/// What differs in the datasets of the file from `traced`, the bytes of a loci file of a new trace. Datasets
-/// that only the first file has do not count: other programs may have added them.
-FileDifferences file_differences(const CheckedFile& file, std::string_view traced) {
-  return Differences(file, traced).find();
-}
-
 /// Attributes that differ between runs, or hold what other comparisons look at.
 bool is_compared(const std::string& attribute) {
   static const std::set<std::string> others{"seconds", "program_version", "scene_path", "blas_kernel"};
@@ -169,7 +165,7 @@ void compare_labels_with(const LociFile& traced, const CheckedFile& file, Compar
     result.faults.push_back("the file ends at " + file.at(file.loci.p.back()) + ", a new trace at " +
                             exact_text(traced.p.back()));
   if (file.loci.modes.size() != traced.modes.size())
-    result.faults.push_back("the file has " + count_text(file.loci.modes.size(), "mode") + ", a new trace " +
+    result.faults.push_back("the file has " + count_of(file.loci.modes.size(), "mode") + ", a new trace " +
                             std::to_string(traced.modes.size()));
   for (const std::size_t node : file.plain_nodes(100)) {
     const double p = file.loci.p[node];
@@ -225,7 +221,7 @@ Comparison compare_new_trace(const CheckedFile& file) {
     return result;
   }
   const LociFile other = read_loci_image("new trace", traced.bytes);
-  FileDifferences differences = file_differences(file, traced.bytes);
+  FileDifferences differences = Differences(file, traced.bytes).find();
   const std::size_t computed = differences.different.count("dense_output") +
                                differences.different.count("mode_shape") +
                                differences.different.count("eigenvalue_derivative");

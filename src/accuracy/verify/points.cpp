@@ -83,8 +83,8 @@ Comparison compare_points(const CheckedFile& file, const VerifyOptions& options,
         result.faults.push_back("mode_shape of " + file.mode_at(mode, p) + " is none of its eigenvalue");
     }
   });
-  result.compared = "equilibria of " + count_text(nodes.size(), "stored point") + " and " +
-                    count_text(n_shapes, "mode shape") + " against their equations";
+  result.compared = "equilibria of " + count_of(nodes.size(), "stored point") + " and " +
+                    count_of(n_shapes, "mode shape") + " against their equations";
   return result;
 }
 

@@ -84,7 +84,7 @@ class SpectrumComparison {
                    " of its magnitude, " + of_tolerance(worst));
     const std::ptrdiff_t missing = follows_all_ ? missing_modes(s, exact, largest_, zero_at(place, s)) : 0;
     if (missing > 0)
-      return wrong(count_text(static_cast<std::size_t>(missing), "eigenvalue") + " of the spectrum at " +
+      return wrong(count_of(static_cast<std::size_t>(missing), "eigenvalue") + " of the spectrum at " +
                    file_.at(p) + (missing == 1 ? " has" : " have") + " no mode");
     return true;
   }
@@ -162,7 +162,7 @@ Comparison compare_spectra(const CheckedFile& file, const VerifyOptions& options
   SpectrumComparison comparison(file, solver);
   std::string places;
   if (file.has_steps()) {
-    places = count_text(samples, "random value") + " of " + loci.parameter + " and ";
+    places = count_of(samples, "random value") + " of " + loci.parameter + " and ";
     std::mt19937_64 engine(options.seed);
     std::uniform_real_distribution<double> uniform(loci.lowest(), loci.highest());
     for (std::size_t i = 0; i < samples; ++i) {
@@ -172,9 +172,9 @@ Comparison compare_spectra(const CheckedFile& file, const VerifyOptions& options
   bool points_fit = true;
   const std::vector<std::size_t> nodes = file.plain_nodes(samples);
   for (const std::size_t node : nodes) points_fit = comparison.compare(file.node(node)) && points_fit;
-  Comparison result = std::move(comparison)
-                          .result(places + std::to_string(nodes.size()) + " of " +
-                                  count_text(loci.n_nodes(), "stored point"));
+  Comparison result =
+      std::move(comparison)
+          .result(places + std::to_string(nodes.size()) + " of " + count_of(loci.n_nodes(), "stored point"));
   const std::string matrices = matrices_beside(file.setup.scene);
   if (!points_fit && !matrices.empty())
     result.faults.insert(result.faults.begin(),

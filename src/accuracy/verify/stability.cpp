@@ -112,7 +112,7 @@ void compare_counts(const CheckedFile& file, Comparison& result) {
     }
     known = node;
   }
-  result.compared = "numbers of growing and of real eigenvalues on " + count_text(compared, "step") +
+  result.compared = "numbers of growing and of real eigenvalues on " + count_of(compared, "step") +
                     " against the special points";
 }
 
@@ -154,8 +154,7 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
       const double level = t == 0.0 ? vanishing_real_part : file.accuracy.tolerance;
       const Census census = census_at(file, {step, t}, level, permanence);
       const auto is_in = [&](double by) {
-        return std::any_of(loci.ranges->begin(), loci.ranges->end(),
-                           [&](const StableRange& range) { return holds(range, p, by); });
+        return std::ranges::any_of(*loci.ranges, [&](const auto& range) { return holds(range, p, by); });
       };
       if (census.surely_growing > 0 && is_in(margin))
         result.faults.push_back("a mode grows at " + file.at(p) + ", within a stable range");
@@ -163,7 +162,7 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
         result.faults.push_back("all modes decay at " + file.at(p) + ", outside the stable ranges");
     }
   }
-  result.compared += ", " + count_text(loci.ranges->size(), "stable range") + " against the eigenvalues";
+  result.compared += ", " + count_of(loci.ranges->size(), "stable range") + " against the eigenvalues";
 }
 
 }  // namespace
