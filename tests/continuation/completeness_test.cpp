@@ -42,6 +42,19 @@ TEST(DoubtfulTrack, SameEigenpairTwiceIs) {
   EXPECT_TRUE(tracked.is_doubtful());
 }
 
+/// Beside an exceptional point rounding moves an eigenvalue by much more than that of simple ones.
+TEST(Followed, IsAnEigenvalueThatDiffersByItsRounding) {
+  const Tracked tracked(coupled);
+  Track again = tracked.node.tracks[1];
+  again.roots[0] += 1e-6;
+  again.pair.Lambda(0, 0) += 1e-6;
+  EXPECT_FALSE(is_followed(tracked.problem, tracked.node, again));
+  again.pair.rounding = 1e-5;
+  EXPECT_TRUE(is_followed(tracked.problem, tracked.node, again));
+  again.pair.Z = tracked.node.tracks[0].pair.Z;
+  EXPECT_FALSE(is_followed(tracked.problem, tracked.node, again));
+}
+
 /// One conjugate beside the other is the same mode, of which the first track stays.
 TEST(Conjugates, AreOneMode) {
   Tracked tracked(coupled);

@@ -169,11 +169,12 @@ double resemblance(const ComplexMatrix& a, const ComplexMatrix& b) {
 }  // namespace
 
 bool have_common_eigenpair(const Track& a, const Track& b, double reference,
-                           const IdentityThresholds& thresholds) {
+                           const IdentityThresholds& thresholds, const Vector& rounding) {
   if (a.pair.chart != b.pair.chart || a.pair.part != b.pair.part) return false;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
     const double scale = std::max(std::abs(a.roots[i]), reference);
-    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > thresholds.merged_distance * scale) continue;
+    const double same = std::max(thresholds.merged_distance * scale, rounding.size() > 0 ? rounding[i] : 0.0);
+    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > same) continue;
     const ComplexVector z = vector_of(a, i);
     const ComplexVector outside = z - b.pair.Z * b.pair.Z.colPivHouseholderQr().solve(z);
     if (1.0 - outside.squaredNorm() > thresholds.merged_assurance) return true;
@@ -183,8 +184,9 @@ bool have_common_eigenpair(const Track& a, const Track& b, double reference,
 
 bool is_followed(const PathProblem& problem, const PathNode& node, const Track& track) {
   const double reference = problem.reference(track.pair.chart);
+  const Vector rounding = rounding_of_roots(track, problem.thresholds.rounding);
   return std::any_of(node.tracks.begin(), node.tracks.end(), [&](const Track& other) {
-    return have_common_eigenpair(track, other, reference, problem.thresholds.identity);
+    return have_common_eigenpair(track, other, reference, problem.thresholds.identity, rounding);
   });
 }
 

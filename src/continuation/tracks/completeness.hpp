@@ -24,9 +24,10 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
 
 /// Whether two tracks at a point have an eigenpair in common: eigenvalues that differ by at most
 /// `merged_distance`, relative to their size or to `reference`, and a vector of one that has at least the
-/// assurance `merged_assurance` with the space of the other.
+/// assurance `merged_assurance` with the space of the other. `rounding`: of the eigenvalues of `a`, if they
+/// count as the same within it.
 bool have_common_eigenpair(const Track& a, const Track& b, double reference,
-                           const IdentityThresholds& thresholds);
+                           const IdentityThresholds& thresholds, const Vector& rounding = {});
 
 /// Whether a track of the node has an eigenpair in common with this one.
 bool is_followed(const PathProblem& problem, const PathNode& node, const Track& track);
