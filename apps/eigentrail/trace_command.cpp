@@ -1,18 +1,16 @@
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <regex>
-#include <string_view>
 
 #include "commands.hpp"
 #include "core/hdf5_writer.hpp"
 #include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "interruption.hpp"
 #include "output_choice.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
@@ -28,69 +26,6 @@ struct TraceArguments : SceneArguments {
   bool verbose = false;
   int threads = 0;  ///< 0: one per core
   SaveOptions saving;
-};
-
-/// Seconds that the computation has to reach its next point. A whole spectrum of a large model, for example,
-/// may take longer and cannot be interrupted.
-constexpr unsigned grace = 1;
-
-// Signal handlers may use only variables of this type.
-volatile std::sig_atomic_t signal_arrived = 0;
-volatile std::sig_atomic_t output_saved = 0;
-
-extern "C" void end_within_step(int) {
-  constexpr std::string_view before_first = "\neigentrail: interrupted before anything was saved\n";
-  constexpr std::string_view later =
-      "\neigentrail: interrupted within a step; the output holds the points up to its last save, and the "
-      "same command with --resume goes on\n";
-  const std::string_view message = output_saved == 0 ? before_first : later;
-  // The program ends in any case.
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
-  _exit(128 + signal_arrived);
-}
-
-extern "C" void note_signal(int signal) {
-  signal_arrived = signal;
-  alarm(grace);
-}
-
-/// During the lifetime of an object the first SIGINT or SIGTERM is recorded: the computation checks between
-/// its steps whether one has arrived, and ends in order. A second one ends the program at once. If the
-/// computation does not notice the signal within a second, because a single step takes longer, the program
-/// ends with a message, which says whether anything was saved.
-class Interruption {
- public:
-  Interruption() {
-    signal_arrived = 0;
-    output_saved = 0;
-    handle(SIGALRM, end_within_step, 0);
-    for (const int signal : {SIGINT, SIGTERM}) handle(signal, note_signal, SA_RESETHAND | SA_RESTART);
-  }
-  ~Interruption() {
-    save_in_peace();
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) handle(signal, SIG_DFL, 0);
-  }
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-
-  explicit operator bool() const { return signal_arrived != 0; }
-
-  /// There is an output from which the computation can go on.
-  static void has_saved() { output_saved = 1; }
-
-  /// To be called when the signal has been noticed: gives the program the time to save.
-  static void save_in_peace() { alarm(0); }
-
-  /// The conventional exit code of a program that was ended by the signal.
-  int exit_code() const { return 128 + signal_arrived; }
-
- private:
-  static void handle(int signal, void (*handler)(int), int flags) {
-    struct sigaction action {};
-    action.sa_handler = handler;
-    action.sa_flags = flags;
-    sigaction(signal, &action, nullptr);
-  }
 };
 
 /// Completes the file of a trace that has ended, and prints the summary.
