@@ -3,18 +3,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <regex>
 
 #include "commands.hpp"
-#include "core/hdf5_writer.hpp"
 #include "eigentrail/accuracy/recorded_trace.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "eigentrail/store/projection_file.hpp"
 #include "interruption.hpp"
 #include "output_choice.hpp"
 #include "progress_bar.hpp"
 #include "scene_arguments.hpp"
-#include "store/labelled_datasets.hpp"
 #include "trace_summary.hpp"
 
 namespace eigentrail::app {
@@ -86,33 +84,6 @@ int trace_to_file(const TraceArguments& arguments, const TraceSetup& setup,
                                 : "nothing was saved";
     throw std::runtime_error(message);
   }
-}
-
-/// Writes the matrices of the projected model to `path` (HDF5), under the names of the large ones, and beside
-/// it the scene of the large model with this file instead (.toml). Returns the path of the scene. The
-/// coordinates are those of the projection; shapes are not those of the large model any more. Throws
-/// InputError if a file exists and `force` is not set, std::system_error if they cannot be written.
-std::string write_projected(const std::string& path, const Scene& scene, const ProjectedFamily& family,
-                            bool force) {
-  namespace fs = std::filesystem;
-  const std::string beside = fs::path(path).replace_extension(".toml").string();
-  const Existing existing = existing_pair(path, beside, force, "--force replaces it");
-  Hdf5Writer file = Hdf5Writer::in_memory(path);
-  const auto& pencil = family.pencil();
-  for (const auto& [letter, terms] : {std::pair("M", &pencil.M), {"C", &pencil.C}, {"K", &pencil.K}}) {
-    for (const AffineTerm<Matrix>& term : *terms) {
-      const std::string dataset = std::string(letter) + "/" + term.name;
-      const auto size = static_cast<std::uint64_t>(term.matrix.rows());
-      file.create_dataset({dataset, ElementType::real, {size, size}, false, {}});
-      file.write_rows(dataset, 0, row_major(term.matrix));
-    }
-  }
-  // A scene of a large model has one key `file`, that of its matrices.
-  static const std::regex key("(^|\n)([ \t]*file[ \t]*=[ \t]*)(\"[^\"\n]*\"|'[^'\n]*')");
-  const std::string name = fs::path(path).filename().string();
-  const std::string image = file.image(), text = std::regex_replace(scene.text, key, "$1$2\"" + name + "\"");
-  write_durably({{path, {image}}, {beside, {text}}}, existing);
-  return beside;
 }
 
 void save_reduced(const TraceArguments& arguments, const TraceSetup& setup) {
