@@ -1,0 +1,31 @@
+// Samples of all modes on the path, by whose growth stretches are judged.
+#pragma once
+
+#include <vector>
+
+#include "eigentrail/stability/axis_stretches.hpp"
+#include "eigentrail/stability/permanent_modes.hpp"
+
+namespace eigentrail {
+
+/// How samples are judged: the accuracy of the dense output, and which modes are zero throughout, and left
+/// out.
+struct Judging {
+  EigenvalueAccuracy accuracy;
+  std::vector<Permanence> modes;
+};
+
+double scale_of(Complex s, const EigenvalueAccuracy& accuracy);
+
+/// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of
+/// the dense output, at a stored point those by rounding. `s`: the eigenvalues of all modes there.
+Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const PathPosition& at,
+                   const ComplexVector& s, const EigenvalueAccuracy& accuracy);
+
+AxisSample axis_sample(const RecordedPath& path, const PathPosition& at, const Judging& judging);
+
+/// Samples the stretch: all stored points inside, samples_per_step places of every step or part of a step,
+/// its ends where they are not on the axis, and extrema of the margin between them.
+void add_samples(const RecordedPath& path, const Judging& judging, AxisStretch& stretch);
+
+}  // namespace eigentrail
