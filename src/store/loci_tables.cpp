@@ -108,7 +108,8 @@ LociTables::LociTables(Hdf5Writer file, const Model& model, const TraceOptions& 
 }
 
 LociTables::Column& LociTables::column_called(const std::string& dataset) {
-  return *std::ranges::find(columns_, dataset, [](const Column& one) { return one.dataset.name; });
+  return *std::ranges::find(columns_, dataset,
+                            [](const Column& one) -> const std::string& { return one.dataset.name; });
 }
 
 std::size_t LociTables::width(const Column& column) const {

@@ -218,27 +218,34 @@ void LociWriter::Implementation::append_point(const TracePoint& point) {
 }
 
 void LociWriter::Implementation::append_modes(const TracePoint& point) {
+  const auto eigenvalue = tables.row<Complex>("eigenvalue");
+  const auto derivative = tables.row<Complex>("eigenvalue_derivative");
+  const auto frequency = tables.row<double>("frequency");
+  const auto damped_frequency = tables.row<double>("damped_frequency");
+  const auto damping_ratio = tables.row<double>("damping_ratio");
+  const auto residual = tables.row<double>("residual");
+  const auto condition = tables.row<double>("condition");
+  const auto rounding = tables.row<double>("rounding");
   const auto shapes = tables.row<Complex>("mode_shape");
   const bool spins = has_whirl(model.description());
   const Vector parameters = point.node.path.parameters.col(0);
   last_shapes.resize(tables.modes());
   for (const ModeState& state : point.modes) {
     const auto mode = static_cast<std::size_t>(state.mode);
-    const auto put = [&](const char* name, auto value) { tables.row<decltype(value)>(name)[mode] = value; };
     if (spins && state.s.imag() != 0.0) {
       const Whirl whirl = whirl_of(model, parameters, state.shape);
-      put("whirl", whirl.measure);
-      put("whirl_reverse", whirl.reverse);
+      tables.row<double>("whirl")[mode] = whirl.measure;
+      tables.row<double>("whirl_reverse")[mode] = whirl.reverse;
     }
     const double size = std::abs(state.s);
-    put("eigenvalue", state.s);
-    put("eigenvalue_derivative", state.slope);
-    put("frequency", size);
-    put("damped_frequency", std::abs(state.s.imag()));
-    put("damping_ratio", std::isfinite(size) ? -state.s.real() / size + 0.0 : 0.0);
-    put("residual", state.backward_error);
-    put("condition", state.condition);
-    put("rounding", state.rounding);
+    eigenvalue[mode] = state.s;
+    derivative[mode] = state.slope;
+    frequency[mode] = size;
+    damped_frequency[mode] = std::abs(state.s.imag());
+    damping_ratio[mode] = std::isfinite(size) ? -state.s.real() / size + 0.0 : 0.0;
+    residual[mode] = state.backward_error;
+    condition[mode] = state.condition;
+    rounding[mode] = state.rounding;
     ComplexVector& shape = last_shapes[mode];
     shape = normalize_shape(state.shape, point.node.linearization.M[0], shape);
     const auto n = static_cast<std::size_t>(shape.size());
