@@ -102,8 +102,8 @@ void make_biorthogonal(std::vector<EigenTriple>& all, const Matrix& M, const Mat
 
 /// The finite eigenvalues of s^2 M + s C + K, both members of complex pairs, by LAPACK's QZ algorithm on the
 /// companion form, or on s C + K if M is zero. Eigenvectors of equal eigenvalues are made biorthogonal, and
-/// all are scaled to y^H P'(s) z = 1. Empty
-/// if the algorithm does not converge. Cost: about 100 m^3, m = 2n or n.
+/// all are scaled to y^H P'(s) z = 1. Empty if the algorithm does not converge. Cost: about 100 m^3, m = 2n
+/// or n.
 std::vector<EigenTriple> eigen_triples(const Matrix& M, const Matrix& C, const Matrix& K) {
   const Eigen::Index n = M.rows();
   std::vector<EigenTriple> all;

@@ -15,6 +15,7 @@ struct Judging {
   std::vector<Permanence> modes;
 };
 
+/// What errors of an eigenvalue are relative to, 1/s.
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy);
 
 /// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of
@@ -22,10 +23,11 @@ double scale_of(Complex s, const EigenvalueAccuracy& accuracy);
 Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const PathPosition& at,
                    const ComplexVector& s, const EigenvalueAccuracy& accuracy);
 
+/// All modes at a place of the dense output or at a stored point.
 AxisSample axis_sample(const RecordedPath& path, const PathPosition& at, const Judging& judging);
 
-/// Samples the stretch: all stored points inside, samples_per_step places of every step or part of a step,
-/// its ends where they are not on the axis, and extrema of the margin between them.
+/// Samples the stretch: all stored points inside, several places of every step or part of a step, its ends
+/// where they are not on the axis, and extrema of the margin between them.
 void add_samples(const RecordedPath& path, const Judging& judging, AxisStretch& stretch);
 
 }  // namespace eigentrail

@@ -34,9 +34,17 @@ Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, 
       return chart == Chart::finite ? im - criterion.value : -im - criterion.value * square;
     case EventKind::extremum:
       return re / sqrt(square);
-    default:
-      return re;
+    case EventKind::flutter:
+    case EventKind::divergence:
+    case EventKind::collision:
+    case EventKind::crossing:
+    case EventKind::veering:
+    case EventKind::fold:
+    case EventKind::branch_point:
+    case EventKind::cusp:
+      break;
   }
+  return re;
 }
 
 RealSeries as_series(const Vector& coefficients) {
@@ -71,9 +79,16 @@ std::optional<Criterion> criterion_of(const Event& event) {
     case EventKind::resonance:
     case EventKind::band_edge:
       return Criterion{event.kind, event.value};
-    default:
-      return std::nullopt;
+    case EventKind::collision:
+    case EventKind::crossing:
+    case EventKind::veering:
+    case EventKind::fold:
+    case EventKind::branch_point:
+    case EventKind::extremum:
+    case EventKind::cusp:
+      break;
   }
+  return std::nullopt;
 }
 
 Vector criterion_series(const Criterion& criterion, const ComplexVector& mu, Chart chart,
