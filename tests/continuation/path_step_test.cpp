@@ -183,6 +183,20 @@ TEST(StepEigenvalues, ThatMeetAtAnEndAreToldApartFromTheOther) {
   }
 }
 
+TEST(StepEigenvalues, ThatMeetZerosAtAnEndAreToldApartFromTheOther) {
+  // Two zeros throughout, and s^2 = -t: at t = 0 all four are zero, and the zeros coincide at both ends.
+  std::vector<ComplexVector> entries(16, zero);
+  entries[2 + 4 * 3] = ComplexVector{{1.0}};
+  entries[3 + 4 * 2] = ComplexVector{{0.0, -1.0}};
+  const PathStep step = straight_step({block_of(entries, {1, 0})});
+  const ComplexVector left{{0.0, 0.0}}, right{{Complex(0.0, 1.0), 0.0}};
+  for (const double t : {0.04, 0.25, 0.81}) {
+    const ComplexVector s = step_eigenvalues(step, left, right, t);
+    EXPECT_LT(std::abs(s[0] - Complex(0.0, std::sqrt(t))), tolerance) << "t = " << t;
+    EXPECT_LT(std::abs(s[1]), tolerance) << "t = " << t;
+  }
+}
+
 TEST(StepEigenvalues, RealBlockTellsAPairByItsUpperMember) {
   // delta < 0: a pair; its lower member is no mode.
   const PathStep step = straight_step({block_of({ComplexVector{{-0.2}}, ComplexVector{{-1.0, 0.5}}}, {0})});

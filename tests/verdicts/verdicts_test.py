@@ -148,6 +148,7 @@ class Zeros(VerdictTest):
         found = sorted((abs(s) for _, _, s in self.eval_rows(file, [7.0])))
         self.assertAlmostEqual(found[-1], lean, delta=1e-7)
         self.assertLess(max(found[:-1]), 1e-12)
+        self.run_well("verify", file)  # also beside the collision, where yaw is zero at both ends of the step
 
 
 class Undamped(VerdictTest):

@@ -33,6 +33,10 @@ constexpr double real_turning_point = 1e-7;
 /// Positions with the same p on one step closer than this many square roots of epsilon are one: rounding
 /// splits the single position at a fold into two.
 constexpr double same_position = 4.0;
+/// Distance relative to the largest root up to which two roots coincide: rounding with a margin. With a
+/// larger value close roots count as one and are not certified apart, with a smaller one rounding separates
+/// them.
+constexpr double coincide_within = 1e-12;
 
 /// The member of a conjugate pair with Im s >= 0.
 Complex upper_member(Complex s) {
@@ -82,7 +86,7 @@ class Differences {
   Differences(const HermiteInterpolant& functions, const ComplexVector& roots, double from)
       : functions_(functions),
         from_(from),
-        scale_(coinciding * roots.cwiseAbs().maxCoeff()),
+        scale_(coincide_within * roots.cwiseAbs().maxCoeff()),
         start_(roots),
         unclear_(static_cast<std::size_t>(roots.size() * roots.size()), false) {}
 
@@ -127,11 +131,6 @@ class Differences {
   }
 
  private:
-  /// Distance relative to the largest root up to which two roots coincide: rounding with a margin. With a
-  /// larger value close roots count as one and are not certified apart, with a smaller one rounding separates
-  /// them.
-  static constexpr double coinciding = 1e-12;
-
   /// Computed when it is asked for: most pieces are resolved without it.
   double resolution_of(Eigen::Index i, Eigen::Index j) {
     if (resolutions_.size() == 0) resolutions_ = root_resolutions(functions_(from_), start_);
@@ -168,24 +167,26 @@ class Differences {
   std::vector<bool> unclear_;
 };
 
-/// How well the roots of a block can be distinguished, to compare both ends of a step: the least distance of
-/// two roots, for three and more relative to the condition numbers 1 / |y^H x| of the two, with unit
-/// eigenvectors x and y. At an exceptional point rounding alone separates the roots, and the condition
-/// numbers are large; roots that are as close to each other elsewhere are well conditioned.
+/// How well the roots of a block can be distinguished, to compare both ends of a step: the logarithm of the
+/// product of the distances of all pairs, for three and more relative to the condition numbers 1 / |y^H x| of
+/// the two, with unit eigenvectors x and y. At an exceptional point rounding alone separates the roots, and
+/// the condition numbers are large; roots that are as close to each other elsewhere are well conditioned.
+/// Those that coincide on the whole step, as zeros of rigid-body motions, count alike at both ends.
 double distinctness(const ComplexVector& functions, const ComplexVector& roots) {
   const Eigen::Index k = roots.size();
-  if (k <= 2) return least_gap(roots);
+  if (k <= 2) return std::log(least_gap(roots));
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(ComplexMatrix(functions.reshaped(k, k)));
   const ComplexMatrix right = solver.eigenvectors();
   const ComplexMatrix left = right.inverse();
   const Vector condition = left.rowwise().norm().cwiseProduct(right.colwise().norm().transpose());
   const ComplexVector& s = solver.eigenvalues();
-  double least = INFINITY;
+  const double hidden = coincide_within * s.cwiseAbs().maxCoeff();
+  double sum = 0.0;
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < i; ++j)
-      least = std::min(least, std::abs(s[i] - s[j]) / std::max(condition[i], condition[j]));
+      sum += std::log(std::max(hidden, std::abs(s[i] - s[j]) / std::max(condition[i], condition[j])));
   }
-  return std::isfinite(least) ? least : 0.0;
+  return std::isfinite(sum) ? sum : -INFINITY;
 }
 
 /// The function p(t) - p on a step for a given p. It is evaluated as the change of p from the nearer end, so
