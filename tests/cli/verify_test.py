@@ -51,6 +51,18 @@ class Verify(ProgramTest):
     def test_family_of_matrices_passes(self):
         self.assert_passes(FAMILY)
 
+    def test_a_mode_that_comes_from_infinity_passes(self):
+        # s^2 = 0.09 / p - 1: beside p = 0 no mode is followed, so that none decays there.
+        self.assert_passes("""[trace]
+parameter = "p"
+from = 1
+to = -1
+tolerance = 1e-6
+[matrix_family]
+M = [[[1, 0], [0, 0]]]
+K = [[[1, 0.3], [0.3, 0]], [[0, 0], [0, 1]]]
+""")
+
     def test_a_pair_that_becomes_two_real_modes_passes(self):
         self.assert_passes(BIRTH)
 

@@ -158,7 +158,8 @@ void compare_ranges(const CheckedFile& file, const FreshSolver& solver, Comparis
       };
       if (census.surely_growing > 0 && is_in(margin))
         result.faults.push_back("a mode grows at " + file.at(p) + ", within a stable range");
-      if (census.surely_decaying == census.all && file.setup.options.modes.is_all() && !is_in(-margin))
+      if (census.all > 0 && census.surely_decaying == census.all && file.setup.options.modes.is_all() &&
+          !is_in(-margin))
         result.faults.push_back("all modes decay at " + file.at(p) + ", outside the stable ranges");
     }
   }
