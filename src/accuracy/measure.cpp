@@ -87,7 +87,8 @@ ReferenceSet reference_set(const TraceSetup& setup, const std::vector<double>& p
     ReferenceSample sample{p, {}};
     bool solved = true;
     for (const PathPosition& position : guide.path.positions(p)) {
-      const ReferenceSpectrum reference = reference_spectrum(problem, p, guide.guess(position));
+      const ReferenceSpectrum reference =
+          reference_spectrum(problem, p, guide.guess(position), guide.path.eigenvalues_at(position));
       sample.passages.push_back(reference.nearest_doubles());
       solved = solved && reference.status == ReferenceStatus::converged &&
                same(guide, position, sample.passages.back());

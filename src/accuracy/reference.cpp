@@ -92,8 +92,16 @@ std::optional<ExtendedPencil> extended_pencil(const PathProblem& problem, const 
   if (!std::isfinite(moved) || problem.model.extended_linearization(path, full)) return std::nullopt;
   ExtendedMatrix T = point.basis.T[0].cast<Extended>();
   const double turned = refine_basis(point.equilibrium.kkt.constraints(), full.A[0], T);
+  // Most entries of the basis are zero where constraints hold a few coordinates each.
   const auto projected = [&T](const BasicSystemMatrix<Extended>& B) {
-    return ExtendedMatrix((T.transpose() * B) * T);
+    const ExtendedMatrix BT = B * T;
+    ExtendedMatrix result = ExtendedMatrix::Zero(T.cols(), T.cols());
+    for (Eigen::Index i = 0; i < T.cols(); ++i) {
+      for (Eigen::Index k = 0; k < T.rows(); ++k) {
+        if (T(k, i) != Extended(0.0)) result.row(i) += T(k, i) * BT.row(k);
+      }
+    }
+    return result;
   };
   pencil.M = projected(full.M[0]);
   pencil.C = projected(full.C[0]);
@@ -244,8 +252,24 @@ InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectru
   return pair;
 }
 
-/// Refines all groups of eigenvalues and adds those with Im s >= 0 to the result.
-void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpectrum& result) {
+/// Which members are as near to one of the followed eigenvalues as the nearest one; all of them without any.
+std::vector<bool> beside(const std::optional<ComplexVector>& followed, const std::vector<Complex>& s,
+                         double reference) {
+  std::vector<bool> result(s.size(), !followed);
+  if (!followed) return result;
+  for (const Complex value : *followed) {
+    const auto distance = [value](const Complex& other) { return std::abs(other - value); };
+    if (s.empty() || !std::isfinite(value.real())) continue;
+    const double close = same_cluster * std::max(std::abs(value), reference);
+    const double nearest = distance(*std::ranges::min_element(s, {}, distance));
+    for (std::size_t i = 0; i < s.size(); ++i) result[i] = result[i] || distance(s[i]) <= nearest + close;
+  }
+  return result;
+}
+
+/// Refines the groups of eigenvalues with followed ones, and adds all those with Im s >= 0 to the result.
+void refine_modes(const ExtendedPencil& extended, const std::optional<ComplexVector>& followed,
+                  double reference, ReferenceSpectrum& result) {
   const ReducedPencil pencil{{to_double(extended.M)}, {to_double(extended.C)}, {to_double(extended.K)}};
   const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
   result.status = ReferenceStatus::no_spectrum;
@@ -253,11 +277,19 @@ void refine_modes(const ExtendedPencil& extended, double reference, ReferenceSpe
   result.status = ReferenceStatus::not_converged;
   const PencilAtPoint at_point(pencil);
   const SpectrumMembers members(spectrum);
+  const std::vector<bool> is_wanted = beside(followed, members.s, reference);
   ModeCounts counts;
   for (const auto& indices : clusters(members.s, reference)) {
     const std::vector<std::size_t> group(indices.begin(), indices.end());
     const bool real = members.closed(group);
     if (!real && members.mean(group).imag() < 0.0) continue;
+    if (std::ranges::none_of(group, [&](std::size_t i) { return is_wanted[i]; })) {
+      for (const std::size_t i : group) {
+        const Complex s = members.s[i];
+        if (!real || s.imag() >= 0.0) result.s.emplace_back(s.real(), s.imag());
+      }
+      continue;
+    }
     const InvariantPair pair = correct_pair(
         at_point, starting_pair(pencil, spectrum, members, group, reference), reference, {}, counts);
     if (pair.status != PairStatus::converged) return;
@@ -280,7 +312,8 @@ std::vector<Complex> ReferenceSpectrum::nearest_doubles() const {
   return doubles;
 }
 
-ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess) {
+ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess,
+                                     const std::optional<ComplexVector>& followed) {
   ReferenceSpectrum result;
   RunCounts counts;
   const PathPoint point = reduce_at(problem, p, guess, Matrix(), counts);
@@ -292,7 +325,7 @@ ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const
   result.status = ReferenceStatus::no_equilibrium;
   if (pencil->correction > reference_accuracy) return result;
   result.correction = pencil->correction;
-  refine_modes(*pencil, problem.s_ref, result);
+  refine_modes(*pencil, followed, problem.s_ref, result);
   return result;
 }
 

@@ -15,10 +15,11 @@ namespace {
 /// Closed forms and references are rounded some tens of times each, to 1e-34.
 constexpr double agreement = 1e-30;
 
-ReferenceSpectrum reference_of(const Setting& setting, double p) {
+ReferenceSpectrum reference_of(const Setting& setting, double p,
+                               const std::optional<ComplexVector>& followed = {}) {
   PathProblem problem = setting.problem();
   const EquilibriumGuess guess{problem.model.initial_guess(parameters_at(problem, p)), {}, false};
-  return reference_spectrum(problem, p, guess);
+  return reference_spectrum(problem, p, guess, followed);
 }
 
 double distance(const ExtendedComplex& a, const ExtendedComplex& b) {
@@ -187,6 +188,19 @@ class ForeignModel final : public Model {
     return {};
   }
 };
+
+TEST(Reference, RefinesThoseBesideFollowedOnesAndKeepsTheOthers) {
+  // s^2 + 1 and s^2 + 7; the first is followed, and known to a thousandth.
+  const Setting setting = family("[[[1, 0], [0, 7]]]");
+  ReferenceSpectrum found =
+      reference_of(setting, 0.5, ComplexVector{{Complex(0.0, 1.001), Complex(NAN, NAN)}});
+  ASSERT_EQ(found.s.size(), 2U);
+  if (found.s[1].imag() < found.s[0].imag()) std::swap(found.s[0], found.s[1]);
+  EXPECT_LT(distance(found.s[0], undamped(Extended(1.0))), agreement);
+  const double other = distance(found.s[1], undamped(Extended(7.0)));
+  EXPECT_LT(other, 1e-12);
+  EXPECT_GT(other, agreement);  // the root of 7 is no double
+}
 
 TEST(Reference, SaysWhenAModelHasNoExtendedPrecision) {
   const ForeignModel model;

@@ -14,6 +14,7 @@
 // the doubles nearest to their decimal texts.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,11 @@ struct [[nodiscard]] ReferenceSpectrum {
 /// The refinement has converged if its last relative correction is at most this.
 inline constexpr double reference_accuracy = 1e-20;
 
-/// All finite eigenvalues at the parameter value p. `guess`: starting value for the equilibrium. Cost: a
-/// spectrum by QZ, one LU per mode, and O(n^3) operations of binary128 arithmetic in software, which is about
-/// 50 times slower than double precision.
-ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess);
+/// All finite eigenvalues at the parameter value p. With `followed` (1/s; NaN is left out) those beside them
+/// are refined, and the others as QZ finds them. `guess`: starting value for the equilibrium. Cost: a
+/// spectrum by QZ, one LU per refined mode, and O(n^3) operations of binary128 arithmetic in software, which
+/// is about 50 times slower than double precision.
+ReferenceSpectrum reference_spectrum(const PathProblem& problem, double p, const EquilibriumGuess& guess,
+                                     const std::optional<ComplexVector>& followed = {});
 
 }  // namespace eigentrail

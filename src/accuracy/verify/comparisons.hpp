@@ -67,8 +67,9 @@ class FreshSolver {
 
   /// The same refined, in extended precision or, where that cannot be had, by Newton's method: where
   /// eigenvalues are close, or the entries of the matrices of very different size, QZ itself is off by more
-  /// than a trace. Empty of a large model.
-  std::vector<Complex> refined_spectrum_at(const PathPosition& position) const;
+  /// than a trace. With `s` only the eigenvalues beside these are refined. Empty of a large model.
+  std::vector<Complex> refined_spectrum_at(const PathPosition& position,
+                                           const std::optional<ComplexVector>& s = {}) const;
 
  private:
   EquilibriumGuess guess_at(const PathPosition& position) const;

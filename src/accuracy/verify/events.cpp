@@ -109,7 +109,7 @@ std::string fault_of(const CheckedFile& file, const Event& event, FreshSolver& s
   const std::vector<Complex> exact = solver.spectrum_at(*place, file.loci.eigenvalues_at(*place));
   if (exact.empty() && event.kind == EventKind::branch_point) return "";  // singular there
   if (holds(exact, event.s, count, allowed)) return "";
-  if (holds(solver.refined_spectrum_at(*place), event.s, count, allowed)) return "";
+  if (holds(solver.refined_spectrum_at(*place, ComplexVector{{event.s}}), event.s, count, allowed)) return "";
   return count == 1 ? "the spectrum has no such eigenvalue there"
                     : "no two eigenvalues of the spectrum meet there";
 }

@@ -100,9 +100,9 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
 /// The eigenvalues at a point by QZ, refined if asked for; empty if they cannot be computed.
 std::vector<Complex> eigenvalues_of(const PathPoint& point, bool refined) {
   if (point.status != PointStatus::computed) return {};
-  Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
-  if (spectrum.status != SpectrumStatus::complete) return {};
   const ReducedPencil whole{{point.pencil.M[0]}, {point.pencil.C[0]}, {point.pencil.K[0]}};
+  Spectrum spectrum = refined ? compute_spectrum(whole) : compute_eigenvalues(whole);
+  if (spectrum.status != SpectrumStatus::complete) return {};
   if (refined) refine(whole, static_cast<int>(spectrum.modes.size()), spectrum);
   std::vector<Complex> exact;
   for (const StartingMode& found : spectrum.modes) exact.push_back(found.s);
@@ -149,10 +149,11 @@ std::vector<Complex> FreshSolver::spectrum_at(const PathPosition& position, cons
   return eigenvalues_of(point_at(position), false);
 }
 
-std::vector<Complex> FreshSolver::refined_spectrum_at(const PathPosition& position) const {
+std::vector<Complex> FreshSolver::refined_spectrum_at(const PathPosition& position,
+                                                      const std::optional<ComplexVector>& s) const {
   if (large_) return {};
   const ReferenceSpectrum reference =
-      reference_spectrum(problem_, loci_.parameter_at(position), guess_at(position));
+      reference_spectrum(problem_, loci_.parameter_at(position), guess_at(position), s);
   if (reference.status != ReferenceStatus::converged) return eigenvalues_of(point_at(position), true);
   return reference.nearest_doubles();
 }

@@ -91,7 +91,7 @@ class SpectrumComparison {
 
   Comparison result(const std::string& places) && {
     std::string text = places + ", each solved afresh " +
-                       (solver_.is_of_large_model() ? "by shift-invert of the whole model" : "by QZ");
+                       (solver_.is_of_large_model() ? "by shift-invert of the whole model" : "by QR or QZ");
     if (refined_ > 0) text += ", at " + std::to_string(refined_) + " of them refined";
     if (solved_ > 0)
       text +=
@@ -126,7 +126,7 @@ class SpectrumComparison {
   }
 
   Vector refined(const PathPosition& place, const ComplexVector& s, Vector off) {
-    const std::vector<Complex> exact = with_exact_zeros(s, solver_.refined_spectrum_at(place), largest_);
+    const std::vector<Complex> exact = with_exact_zeros(s, solver_.refined_spectrum_at(place, s), largest_);
     if (exact.empty()) return off;
     ++refined_;
     return discrepancies(file_.loci, place, s, exact, file_.accuracy);
