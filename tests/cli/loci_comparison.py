@@ -6,20 +6,17 @@ import numpy as np
 NOT_COMPARED = {"seconds"}  # the wall time of a run
 
 
-def same(a, b):
-    if a.shape != b.shape or a.dtype != b.dtype:
-        return False
-    if a.dtype.kind == "O":
-        return bool((a[()] == b[()]).all())
-    return np.asarray(a[()]).tobytes() == np.asarray(b[()]).tobytes()
+def contents(path):
+    """Attributes, and shapes, types and bytes of datasets, by name."""
+    with h5py.File(path) as file:
+        found = {("attribute", name): value for name, value in file.attrs.items() if name not in NOT_COMPARED}
+        for name, item in file.items():
+            values = item[()] if isinstance(item, h5py.Dataset) else np.zeros(0)
+            found["dataset", name] = values.shape, values.dtype, values.tolist() if values.dtype.kind == "O" else values.tobytes()
+        return found
 
 
 def differences(a, b):
     """Names of attributes and datasets that are not the same in two files."""
-    with h5py.File(a) as first, h5py.File(b) as second:
-        attributes = [name for name in {*first.attrs, *second.attrs} - NOT_COMPARED
-                      if name not in first.attrs or name not in second.attrs or first.attrs[name] != second.attrs[name]]
-        datasets = [name for name in {*first, *second}
-                    if name not in first or name not in second
-                    or isinstance(first[name], h5py.Dataset) and not same(first[name], second[name])]
-        return attributes + datasets
+    first, second = contents(a), contents(b)
+    return [one[1] for one in {*first, *second} if one not in first or one not in second or first[one] != second[one]]

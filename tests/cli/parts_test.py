@@ -17,8 +17,8 @@ from program import (BLADE, CURVES, EXIT_NUMBERS_FAILED, FAMILY, OTHER_KERNEL, P
 MAP = ("map", "scene.toml", "--second", "drag", "--second-from", "0.5", "--second-to", "20", "--grid", "7x9")
 BOUNDARY = ("boundary", "scene.toml", "--second", "q", "--second-from", "-1", "--second-to", "1")
 
-# Many points a line: a line takes a tenth of a second and more.
-SLOW = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.05")
+# Many points a line: a line takes a twentieth of a second and more.
+SLOW = edited(BLADE, "to = 5.0", "to = 5.0\norder = 1\ntolerance = 1e-9\nmax_step = 0.1")
 
 
 class Parts(ProgramTest):
@@ -97,7 +97,7 @@ class Parts(ProgramTest):
         self.run_well(*command, "-o", "whole.h5", "--quiet")
         names = self.parts(command, 2)
         part = self.folder / names[1]
-        for delay in (0.02, 0.1, 0.2):
+        for delay in (0.02, 0.05, 0.1):
             with self.subTest(delay):
                 part.unlink(missing_ok=True)
                 before = self.contents()

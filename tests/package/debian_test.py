@@ -21,7 +21,7 @@ class DebianPackage(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         folder = Path(cls.folder.name)
-        run(os.environ["CPACK"], "--config", BUILD / "CPackConfig.cmake", "-B", folder)
+        run(os.environ["CPACK"], "--config", BUILD / "CPackConfig.cmake", "-B", folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=zstd")
         (cls.package,) = folder.glob("eigentrail_*.deb")
         cls.root = folder / "root"
         run("dpkg-deb", "-x", cls.package, cls.root)

@@ -2,6 +2,8 @@
 
 import os
 import pathlib
+import re
+import shutil
 import tempfile
 import tomllib
 import unittest
@@ -15,8 +17,11 @@ from program import BLADE, FAMILY, PUSHED_PENDULUM, SCENES, ProgramTest
 
 class Scenes(ProgramTest):
     def test_every_scene_of_the_library_gives_the_file_of_the_program(self):
-        for scene in sorted(SCENES.glob("*.toml")):
-            with self.subTest(scene.stem):
+        """Beams have few elements."""
+        shutil.copy(SCENES / "nrel_5mw_blade.csv", self.folder)
+        for path in sorted(SCENES.glob("*.toml")):
+            with self.subTest(path.stem):
+                scene = self.write(path.name, re.sub(r"(?m)^elements  .*", "elements = 2", path.read_text(encoding="utf-8")))
                 self.run_well("trace", scene, "-o", "program.h5", "--quiet", "--force")
                 et.trace(scene).eigentrail.save(self.folder / "python.h5", overwrite=True)
                 self.assertEqual(differences(self.folder / "program.h5", self.folder / "python.h5"), [])

@@ -12,6 +12,9 @@ import resource
 import shutil
 import sys
 import unittest
+from importlib.util import find_spec
+
+import eigentrail
 
 import bodies
 import files
@@ -71,9 +74,18 @@ class BadMatrix(BadScene):
 
 @each_case(keys.SCENES)
 class BadKey(BadScene):
-    """Rows made from the program's own reference."""
+    """Rows made from the program's own reference. The Python package, where there is one, reads all in one process, by the same code."""
 
     explained = False
+
+    if find_spec("eigentrail._engine"):
+        def check(self, scene, fragments):
+            path, where = self.folder / "scene.toml", self.write_marked(scene, ())
+            with self.assertRaises(eigentrail.SceneError) as refused:
+                eigentrail.explain(path)
+            self.assertTrue(str(refused.exception).startswith(f"{path}:{where} "), refused.exception)
+            for fragment in fragments:
+                self.assertIn(fragment, str(refused.exception))
 
 
 class GoodScene(ProgramTest):

@@ -9,7 +9,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
 DESKTOP, PHONE = (1400, 1000), (390, 844)
-ARGUMENTS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
+ARGUMENTS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--in-process-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
              "--force-device-scale-factor=1", "--force-prefers-reduced-motion")
 TIMEOUT = 30.0
 
@@ -29,7 +29,11 @@ def resize(driver, size):
 
 
 def show(driver, path, size=DESKTOP):
-    """Opens a page and waits until all figures are drawn. Console messages of earlier pages are discarded."""
+    """
+    Opens a page and waits until all figures are drawn. Console messages of earlier pages are discarded, and the page before is
+    closed first, so that it is not drawn anew in the new size.
+    """
+    driver.get("about:blank")
     with contextlib.suppress(Exception):
         driver.get_log("browser")
     resize(driver, size)

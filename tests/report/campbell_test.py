@@ -50,13 +50,11 @@ class Campbell(PageTest):
         return self.driver.find_element(By.XPATH, f"//div[@class='controls']//label[contains(., '{label}')]//*[self::input or self::select]")
 
     def type(self, label, text):
-        field = self.control(label)
-        field.clear()
-        field.send_keys(text, Keys.TAB)
+        self.control(label).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.TAB)
 
     def rows(self, table):
-        return [[cell.text for cell in row.find_elements(By.TAG_NAME, "td")]
-                for row in self.driver.find_elements(By.CSS_SELECTOR, f"[aria-label='{table}'] tbody tr")]
+        return self.driver.execute_script(f"""return [...document.querySelectorAll("[aria-label='{table}'] tbody tr")]
+            .map((row) => [...row.querySelectorAll("td")].map((cell) => cell.innerText))""")
 
     def disc(self):
         self.trace(edited(DISC, 'excitation = "omega"', ""))
@@ -72,7 +70,7 @@ class Campbell(PageTest):
                     self.assertEqual(overlaps(self.driver.execute_script(TEXTS, figure)), [])
                 self.assertEqual(self.driver.execute_script(CUT), [])
                 self.assertEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), size[0])
-                self.assertEqual(re.findall(r"\d(?:\.\d+)?e-1\d\b", self.driver.find_element(By.TAG_NAME, "main").text), [])
+                self.assertEqual(re.findall(r"\d(?:\.\d+)?e-1\d\b", self.driver.execute_script("return document.querySelector('main').innerText")), [])
 
     def test_opens_in_the_unit_of_the_speed(self):
         self.trace(DISC.replace('value = 300.0, unit = "rad/s"', 'value = 3000, unit = "rpm"').replace("to = 2000.0", "to = 18000"))
@@ -221,20 +219,22 @@ class Campbell(PageTest):
         self.trace(WING, output="wing.h5")
         self.assert_readable("wing", "wing.h5")
 
-    def test_two_parameter_study_can_be_read(self):
+    def test_map_boundary_and_study_are_drawn_and_can_be_read(self):
         window = ("--second", "drag", "--second-from", "0.5", "--second-to", "320", "--from", "16", "--quiet")
         self.run_well("map", SCENES / "rotating_mass.toml", *window, "--grid", "10x20", "-o", "map.h5")
         self.run_well("boundary", SCENES / "rotating_mass.toml", *window, "-o", "boundary.h5")
-        self.assert_readable("study", "map.h5", "boundary.h5")
+        self.run_well("accuracy", SCENES / "rotating_mass.toml", "--tolerances", "1e-4,1e-6", "--orders", "2,3", "--grids", "25,50", "--repeat", "1",
+                      "--samples", "20", "-o", "study.h5", "--quiet")
+        self.assert_readable("study", "map.h5", "boundary.h5", "study.h5")
+        kinds = self.driver.execute_script("return [...document.querySelectorAll('.chart')].map((chart) => chart.data.map((trace) => trace.type))")
+        self.assertIn("heatmap", kinds[0])
+        self.assertGreater(len(kinds[1]), 3)
 
 
 class Scripts(PageTest):
     """Margins and the placing of labels by themselves, in the scripts of any page: that of the first test stays open."""
 
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.random = np.random.default_rng(3)
+    random = np.random.default_rng(3)
 
     def setUp(self):
         super().setUp()

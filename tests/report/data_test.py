@@ -29,13 +29,13 @@ class ReportData(CommandTest):
         length = numbers(curves["nodes"]["place"], "<f8")[-1]
         where = length * np.linspace(0.0, 1.0, places + 2)[1:-1]
         labels = [mode["label"] for mode in file["modes"]]
-        found, expected = [], []
-        for place in where:
-            p = parameter(curves, place)
-            rows = [(labels.index(mode), s) for _, mode, s in self.eval_rows("loci.h5", [p])]
-            for mode in range(len(labels)):
+        there, found, expected = [parameter(curves, place) for place in where], [], []
+        rows = self.eval_rows("loci.h5", there)
+        self.assertEqual({p for p, _, _ in rows}, set(there))
+        for place, p in zip(where, there):
+            for mode, label in enumerate(labels):
                 s = eigenvalue(curves, mode, place)
-                candidates = [value for number, value in rows if number == mode]
+                candidates = [value for at, name, value in rows if (at, name) == (p, label)]
                 # Where the path turns back eval tells all passages, the page the one at this place.
                 self.assertTrue(candidates or s is None, (p, mode))
                 self.assertTrue(s is not None or not candidates or turns_back, (p, mode))

@@ -1,7 +1,11 @@
 """Shared by the tests of the page: writes pages, opens them in a browser and reads what they draw."""
 
+import atexit
+import functools
 import os
 import pathlib
+import shutil
+import tempfile
 import time
 
 import numpy as np
@@ -32,11 +36,21 @@ return [...document.querySelectorAll('.scroll')].filter((node) => node.scrollWid
 """
 
 
+@functools.cache
+def the_browser():
+    """One for all tests, and the folder of the page that it shows: at one address it compiles the scripts of all pages once."""
+    driver, folder = browser.start(), tempfile.TemporaryDirectory(prefix="eigentrail-")
+    atexit.register(driver.quit)
+    return driver, folder
+
+
 class PageTest(CommandTest):
+    left = None  # the loci file of the page that is open, if tests have left this as they found it
+
     @classmethod
     def setUpClass(cls):
-        cls.driver = browser.start()
-        cls.addClassCleanup(cls.driver.quit)
+        cls.driver, folder = the_browser()
+        cls.shown = pathlib.Path(folder.name)
 
     def show(self, *files, **details):
         """Writes the page of some files and opens it."""
@@ -44,16 +58,26 @@ class PageTest(CommandTest):
         self.open_page(**details)
 
     def open_page(self, size=browser.DESKTOP, picture=None):
-        """Opens the page, and looks for messages in the console."""
-        browser.show(self.driver, self.folder / "page.html", size)
+        """Opens the page, which asks for nothing, and looks for messages in the console."""
+        PageTest.left = None
+        shutil.copy(self.folder / "page.html", self.shown)
+        browser.show(self.driver, self.shown / "page.html", size)
         if picture:
             time.sleep(0.3)  # for what is drawn once the layout has settled
             browser.screenshot(self.driver, SCREENSHOTS / f"{picture}.png")
         self.assertEqual(browser.messages(self.driver), [])
+        self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').map((entry) => entry.name)"), [])
 
-    def blade(self, **details):
+    def blade(self):
         self.trace((SCENES / "rotating_mass.toml").read_text(encoding="utf-8"))
-        self.show("loci.h5", **details)
+        self.show("loci.h5")
+
+    def same_blade(self):
+        """The page of the blade for a test that leaves it as it is, or can do with what it is after such a test."""
+        if not PageTest.left:
+            self.blade()
+            PageTest.left = (self.folder / "loci.h5").read_bytes()
+        (self.folder / "loci.h5").write_bytes(PageTest.left)
 
     def lines(self, mode, axis="y"):
         return np.array(self.driver.execute_script(LINES, mode, axis))
