@@ -158,12 +158,12 @@ int sweep_few(const Options& options) {
   long nodes = 0;
   long nodes_of_all = 0;
   for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed) {
-    const FewModesReport report = check_few_modes(random_family(seed), options.few, options.reversed);
+    const FewModesReport report = check_few_modes(random_family(seed), {options.few}, options.reversed);
     nodes += report.nodes;
     nodes_of_all += report.nodes_of_all;
     if (report.problems.empty()) continue;
     ++failed;
-    std::printf("seed %lu, %d modes\n", static_cast<unsigned long>(seed), options.few);
+    std::printf("seed %lu\n", static_cast<unsigned long>(seed));
     for (const std::string& line : report.problems) std::printf("  %s\n", line.c_str());
     std::fflush(stdout);
   }

@@ -1,6 +1,5 @@
 #include "completeness/exceptional_points.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "completeness/spectrum_functions.hpp"
+#include "support/spectra.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -31,7 +31,7 @@ ComplexVector spectrum(const Family& family, Complex p) {
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = -mass.solve(value(family.K));
   A.bottomRightCorner(n, n) = -mass.solve(value(family.C));
-  return Eigen::ComplexEigenSolver<ComplexMatrix>(A, false).eigenvalues();
+  return qr_eigenvalues(A);
 }
 
 struct Pair {
@@ -94,6 +94,7 @@ std::optional<ExceptionalPoint> corrected(const Family& family, Complex p, std::
     before = now;
     at_before = at_now;
     now += move;
+    if (std::abs(now - p) > 0.2) return {};
     if (std::abs(move) > 1e-11) continue;
     if (std::abs(now - p) > 0.05) return {};
     if (now.imag() < 0.0) return ExceptionalPoint{std::conj(now), std::conj(at_now.mean)};

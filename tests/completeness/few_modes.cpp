@@ -33,31 +33,34 @@ std::vector<Event> without(const std::vector<Event>& events, const std::vector<E
 
 }  // namespace
 
-FewModesReport check_few_modes(RandomFamily family, int modes, bool reversed) {
+FewModesReport check_few_modes(RandomFamily family, const std::vector<int>& numbers, bool reversed) {
   if (reversed) std::swap(family.from, family.to);
   const RecordedTrace all = record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}}));
-  const RecordedTrace few =
-      record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}, {"modes", std::to_string(modes)}}));
-  FewModesReport report;
-  report.nodes = few.result.nodes;
-  report.nodes_of_all = all.result.nodes;
-  const auto problem = [&](const auto&... words) {
-    std::ostringstream text;
-    text.precision(12);
-    (text << ... << words);
-    report.problems.push_back(text.str());
-  };
-  if (few.result.status != TraceStatus::completed) problem("ended early: ", few.result.message);
-  for (const std::string& note : few.result.notes) problem("note: ", note);
   const double range = std::abs(family.to - family.from);
-  for (const Event& event : without(few.result.events, all.result.events, range))
-    problem("invented: ", event_line(event));
-  for (const Event& event : without(all.result.events, few.result.events, range)) {
-    if (*std::min_element(event.modes.begin(), event.modes.end()) < modes)
-      problem("missing: ", event_line(event));
+  FewModesReport report;
+  report.nodes_of_all = all.result.nodes;
+  for (const int modes : numbers) {
+    const RecordedTrace few =
+        record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}, {"modes", std::to_string(modes)}}));
+    report.nodes += few.result.nodes;
+    const auto problem = [&](const auto&... words) {
+      std::ostringstream text;
+      text.precision(12);
+      text << modes << " modes: ";
+      (text << ... << words);
+      report.problems.push_back(text.str());
+    };
+    if (few.result.status != TraceStatus::completed) problem("ended early: ", few.result.message);
+    for (const std::string& note : few.result.notes) problem("note: ", note);
+    for (const Event& event : without(few.result.events, all.result.events, range))
+      problem("invented: ", event_line(event));
+    for (const Event& event : without(all.result.events, few.result.events, range)) {
+      if (*std::min_element(event.modes.begin(), event.modes.end()) < modes)
+        problem("missing: ", event_line(event));
+    }
+    if (few.result.nodes > times_the_points * report.nodes_of_all + further_points)
+      problem(few.result.nodes, " points, of all modes ", report.nodes_of_all);
   }
-  if (report.nodes > times_the_points * report.nodes_of_all + further_points)
-    problem(report.nodes, " points, of all modes ", report.nodes_of_all);
   return report;
 }
 

@@ -10,12 +10,13 @@ namespace eigentrail::test {
 
 struct FewModesReport {
   std::vector<std::string> problems;  ///< a line each; empty if nothing is wrong
-  int nodes = 0, nodes_of_all = 0;
+  int nodes = 0, nodes_of_all = 0;    ///< of the traces of few modes together, and of all
 };
 
-/// Traces the `modes` slowest modes of a family with the default tolerance, from `to` to `from` if
-/// `reversed`, and compares flutter, divergence and collisions with those of a trace of all modes, whose
-/// first ones are the same. An event of a mode that only the trace of all follows may be missing.
-FewModesReport check_few_modes(RandomFamily family, int modes, bool reversed = false);
+/// Traces the slowest modes of a family, as many as each of `numbers` says, with the default tolerance, from
+/// `to` to `from` if `reversed`, and compares flutter, divergence and collisions with those of a trace of all
+/// modes, whose first ones are the same. An event of a mode that only the trace of all follows may be
+/// missing.
+FewModesReport check_few_modes(RandomFamily family, const std::vector<int>& numbers, bool reversed = false);
 
 }  // namespace eigentrail::test

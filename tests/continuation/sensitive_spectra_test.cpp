@@ -80,7 +80,8 @@ class FlowWithDiffusion : public testing::TestWithParam<Flow> {
   }
 };
 
-TEST_P(FlowWithDiffusion, IsFollowedThroughItsExceptionalPoint) {
+TEST_P(FlowWithDiffusion, IsFollowedThroughItsExceptionalPointWhereAllItsModesCollideOnce) {
+  const int n = GetParam().n;
   const RecordedTrace trace = FlowWithDiffusion::trace(GetParam());
   ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
   EXPECT_LT(trace.result.nodes, 100);
@@ -90,7 +91,7 @@ TEST_P(FlowWithDiffusion, IsFollowedThroughItsExceptionalPoint) {
     for (const Complex s : trace.eigenvalues_at(p)) {
       if (std::isfinite(s.real())) found.push_back(s);
     }
-    const std::vector<Complex> expected = exact(GetParam().n, p);
+    const std::vector<Complex> expected = exact(n, p);
     ASSERT_EQ(found.size(), expected.size()) << p;
     for (const Complex s : expected) {
       double nearest = INFINITY;
@@ -98,11 +99,6 @@ TEST_P(FlowWithDiffusion, IsFollowedThroughItsExceptionalPoint) {
       EXPECT_LT(nearest, 2.0 * GetParam().tolerance * std::abs(s)) << p << " " << s;
     }
   }
-}
-
-TEST_P(FlowWithDiffusion, CollidesOnceAndWithAllItsModes) {
-  const int n = GetParam().n;
-  const RecordedTrace trace = FlowWithDiffusion::trace(GetParam());
   ASSERT_EQ(count(trace, EventKind::collision), 1);
   const auto& event = *std::find_if(trace.result.events.begin(), trace.result.events.end(),
                                     [](const Event& e) { return e.kind == EventKind::collision; });

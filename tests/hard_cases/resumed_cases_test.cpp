@@ -7,7 +7,7 @@
 namespace eigentrail::test::resumed_cases_test {
 namespace {
 
-constexpr std::size_t states = 12;  ///< number of states of each trace from which it is resumed
+constexpr std::size_t states = 8;  ///< number of states of each trace from which it is resumed
 
 class ResumedCase : public testing::TestWithParam<HardCase> {};
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eigentrail/core/text.hpp"
+#include "hard_cases/reference_labels.hpp"
 
 namespace eigentrail::test {
 namespace {
@@ -15,31 +16,29 @@ std::vector<LabelledMode> one_by_one(const std::vector<Complex>& s) {
   return modes;
 }
 
-LabelCount compare_labels(const CaseReference& reference, const RecordedTrace& trace) {
-  const HardCase& hard_case = *reference.hard_case;
-  const auto grid = [](double low, double high, int count) {
-    std::vector<double> p;
-    for (int i = 0; i < count; ++i) p.push_back(low + (high - low) * (i + 0.5) / count);
-    return p;
+std::vector<CaseReference::Labels> labels_of(const HardCase& hard_case) {
+  const auto grid = [](double low, double high, int count, const auto& modes_at) {
+    std::vector<LabelledPlace> places;
+    for (int i = 0; i < count; ++i) {
+      const double p = low + (high - low) * (i + 0.5) / count;
+      places.push_back({p, one_by_one(modes_at(p))});
+    }
+    return places;
   };
-  LabelCount count;
   if (hard_case.has_branches) {
-    const auto labelled = [&](double p) {
-      std::vector<Complex> s;
-      for (const auto& branch : hard_case.branches) s.push_back(branch(p));
-      return one_by_one(s);
-    };
     const auto [low, high] = std::minmax(hard_case.from, hard_case.to);
-    count_labels(trace, grid(low, high, 199), 0, labelled, count);
-    return count;
+    return {{0, grid(low, high, 199, [&](double p) {
+               std::vector<Complex> s;
+               for (const auto& branch : hard_case.branches) s.push_back(branch(p));
+               return s;
+             })}};
   }
-  for (const LabelledStretch& stretch : reference.labels) {
-    if (!stretch.complete()) continue;
-    count_labels(
-        trace, grid(stretch.low(), stretch.high(), 60), stretch.branch(),
-        [&](double p) { return one_by_one(stretch(p)); }, count);
+  std::vector<CaseReference::Labels> labels;
+  for (const LabelledStretch& stretch : reference_labels(hard_case)) {
+    if (stretch.complete())
+      labels.push_back({stretch.branch(), grid(stretch.low(), stretch.high(), 60, stretch)});
   }
-  return count;
+  return labels;
 }
 
 /// A model with another starting guess: the equilibrium at the end of a trace, where the reverse trace
@@ -64,10 +63,9 @@ class StartingElsewhere : public Model {
   Vector guess_;
 };
 
-/// The trace from the other end. If the equilibrium must be computed, a trace to that end gives the starting
-/// value. If the path returns to the parameter value at which it begins, its own end is the start.
-RecordedTrace trace_back(const Setting& scene) {
-  const RecordedTrace there = record_trace(scene);
+/// The trace from the other end, to which `there` leads: it gives the starting value of the equilibrium. If
+/// the path returns to the parameter value at which it begins, its own end is the start.
+RecordedTrace trace_back(const Setting& scene, const RecordedTrace& there) {
   Setting back = make_setting(scene.scene.text, {});
   back.options = scene.options;
   back.options.from = there.nodes.back().p;
@@ -83,11 +81,11 @@ CaseReference make_reference(const HardCase& hard_case, int random_samples) {
   reference.hard_case = &hard_case;
   for (const double p : sample_parameters(hard_case, random_samples))
     reference.samples.push_back(sample_at(hard_case, p));
-  if (!hard_case.has_branches) reference.labels = reference_labels(hard_case);
+  reference.labels = labels_of(hard_case);
   return reference;
 }
 
-RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting) {
+RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting, const RecordedTrace* there) {
   OptionTexts options{{"tolerance", exact_text(setting.tolerance)},
                       {"order", std::to_string(setting.order)},
                       {"max_nodes", "2000"}};
@@ -97,12 +95,12 @@ RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting) {
   }
   Setting scene = make_setting(hard_case.scene, options);
   scene.options.thresholds = setting.thresholds;
-  return setting.reversed ? trace_back(scene) : record_trace(scene);
+  if (!setting.reversed) return record_trace(scene);
+  return trace_back(scene, there != nullptr ? *there : record_trace(scene));
 }
 
-CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
+CaseReport check_case(const CaseReference& reference, const RecordedTrace& trace, double tolerance) {
   const HardCase& hard_case = *reference.hard_case;
-  const RecordedTrace trace = trace_case(hard_case, setting);
   CaseReport report;
   report.completed = trace.result.status == TraceStatus::completed;
   report.message = trace.result.message;
@@ -111,10 +109,10 @@ CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
   report.lu_per_mode_step = static_cast<double>(trace.result.counts.modes.factorizations) / steps;
   report.uncertified_share = 1.0 - static_cast<double>(trace.result.certified_steps) / steps;
   if (trace.steps.empty()) return report;
-  const Accuracy accuracy = measure_accuracy(reference.samples, trace, setting.tolerance);
+  const Accuracy accuracy = measure_accuracy(reference.samples, trace, tolerance);
   report.worst_error = accuracy.worst_error;
   report.worst_at = accuracy.worst_at;
-  const EventComparison events = compare_events(hard_case, trace, setting.tolerance);
+  const EventComparison events = compare_events(hard_case, trace, tolerance);
   report.expected_events = events.expected;
   report.found_events = events.found;
   report.missing = events.missing;
@@ -123,7 +121,8 @@ CaseReport run_case(const CaseReference& reference, const RunSetting& setting) {
     if (event.kind != EventKind::veering)
       report.most_retrackings = std::max(report.most_retrackings, event.retrackings);
   }
-  const LabelCount labels = compare_labels(reference, trace);
+  LabelCount labels;
+  for (const auto& [branch, places] : reference.labels) count_labels(trace, places, branch, labels);
   report.labels = labels.labels;
   report.wrong_labels = labels.wrong;
   return report;

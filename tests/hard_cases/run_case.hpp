@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "hard_cases/catalogue.hpp"
-#include "hard_cases/reference_labels.hpp"
 #include "hard_cases/trace_checks.hpp"
 
 namespace eigentrail::test {
@@ -43,13 +42,19 @@ struct CaseReport {
 struct CaseReference {
   const HardCase* hard_case = nullptr;
   std::vector<Sample> samples;
-  std::vector<LabelledStretch> labels;
+  struct Labels {
+    int branch;
+    std::vector<LabelledPlace> places;
+  };
+  std::vector<Labels> labels;
 };
 CaseReference make_reference(const HardCase& hard_case, int random_samples);
 
-/// The trace of a case, from the other end if the setting is `reversed`.
-RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting);
+/// The trace of a case, from the other end if the setting is `reversed`: then `there` is the trace to that
+/// end with the same setting, if it is known.
+RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting,
+                         const RecordedTrace* there = nullptr);
 
-CaseReport run_case(const CaseReference& reference, const RunSetting& setting);
+CaseReport check_case(const CaseReference& reference, const RecordedTrace& trace, double tolerance);
 
 }  // namespace eigentrail::test

@@ -167,18 +167,32 @@ std::string describe(int mode, double p, Complex s, const LabelledMode& known, c
   return text.str();
 }
 
-}  // namespace
+struct Place {
+  std::size_t step;
+  double t;
+};
 
-std::vector<Place> places(const RecordedTrace& trace, double p) {
-  std::vector<Place> found;
+/// Where a trace passes each place of a reference.
+template <class Reference>
+std::vector<std::vector<Place>> places(const RecordedTrace& trace, const std::vector<Reference>& reference) {
+  std::vector<std::vector<Place>> found(reference.size());
   for (std::size_t i = 0; i < trace.steps.size(); ++i) {
-    for (const double t : step_positions(trace.steps[i], p)) {
-      if (t == 0.0 && i > 0) continue;
-      found.push_back({i, t});
+    const PathStep& step = trace.steps[i];
+    const HermiteInterpolant p(step.length, step.parameter.row(0).cast<Complex>(),
+                               step.parameter.row(1).cast<Complex>());
+    // A bound, and its rounding, of how far p moves from the left end. To look for positions takes long.
+    const double moves = 1.001 * p.series(0.0, p.degree()).rightCols(p.degree()).cwiseAbs().sum();
+    for (std::size_t k = 0; k < reference.size(); ++k) {
+      if (std::abs(reference[k].p - step.parameter(0, 0)) > moves) continue;
+      for (const double t : step_positions(step, reference[k].p)) {
+        if (t > 0.0 || i == 0) found[k].push_back({i, t});
+      }
     }
   }
   return found;
 }
+
+}  // namespace
 
 std::vector<double> sample_parameters(const HardCase& hard_case, int random_samples) {
   const double low = std::min(hard_case.from, hard_case.to);
@@ -216,8 +230,10 @@ Accuracy measure_accuracy(const std::vector<Sample>& samples, const RecordedTrac
   for (const ModeState& state : trace.modes.front()) s_max = std::max(s_max, std::abs(state.s));
   s_max *= 1e4;
   Accuracy accuracy;
-  for (const Sample& sample : samples) {
-    for (const Place& place : places(trace, sample.p)) {
+  const auto passages = places(trace, samples);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Sample& sample = samples[k];
+    for (const Place& place : passages[k]) {
       double best = INFINITY;
       for (std::size_t branch = 0; branch < sample.spectra.size(); ++branch) {
         if (sample.spectra[branch].empty()) continue;
@@ -272,26 +288,27 @@ EventComparison compare_events(const HardCase& hard_case, const RecordedTrace& t
   return result;
 }
 
-void count_labels(const RecordedTrace& trace, const std::vector<double>& parameters, int branch,
-                  const std::function<std::vector<LabelledMode>(double)>& labelled, LabelCount& count) {
+void count_labels(const RecordedTrace& trace, const std::vector<LabelledPlace>& reference, int branch,
+                  LabelCount& count) {
   constexpr std::size_t most_described = 3;
   std::map<int, LabelledMode> label_of;  // of a column
   std::optional<std::size_t> last_step;
-  for (const double p : parameters) {
-    const auto found = places(trace, p);
+  const auto passages = places(trace, reference);
+  for (std::size_t k = 0; k < reference.size(); ++k) {
+    const auto& [p, known_modes] = reference[k];
+    const std::vector<Place>& found = passages[k];
     if (found.empty()) continue;
     const auto index = static_cast<std::size_t>(std::min<int>(branch, static_cast<int>(found.size()) - 1));
     const Place place = found[index];
     const PathStep& step = trace.steps[place.step];
     const ComplexVector s = step_eigenvalues(step, trace.eigenvalues_of_node(place.step),
                                              trace.eigenvalues_of_node(place.step + 1), place.t);
-    const std::vector<LabelledMode> reference = labelled(p);
     for (int mode = 0; mode < s.size(); ++mode) {
       if (!std::isfinite(s[mode].real())) continue;
       if (!certified_between(trace, last_step.value_or(place.step), place.step, mode)) label_of.erase(mode);
-      const int nearest = clear_label(s[mode], reference);
+      const int nearest = clear_label(s[mode], known_modes);
       if (nearest < 0) continue;
-      const LabelledMode& now = reference[static_cast<std::size_t>(nearest)];
+      const LabelledMode& now = known_modes[static_cast<std::size_t>(nearest)];
       const auto known = label_of.find(mode);
       if (known != label_of.end()) {
         ++count.labels;

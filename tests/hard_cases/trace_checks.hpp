@@ -1,7 +1,6 @@
 // Compares a recorded trace with reference data of its case: eigenvalues, special points, labels.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,13 +8,6 @@
 #include "support/scenes.hpp"
 
 namespace eigentrail::test {
-
-/// Where a trace passes a parameter value.
-struct Place {
-  std::size_t step;
-  double t;
-};
-std::vector<Place> places(const RecordedTrace& trace, double p);
 
 /// Spectra of all equilibrium branches at one parameter.
 struct Sample {
@@ -64,9 +56,14 @@ struct LabelCount {
   /// The first few that are wrong.
   std::vector<std::string> wrong_places;
 };
-/// Compares the labels at ascending parameters, on the passage `branch` of each: a column keeps to one label
+/// Modes that are known at a parameter.
+struct LabelledPlace {
+  double p;
+  std::vector<LabelledMode> modes;
+};
+/// Compares the labels at places of ascending p, on the passage `branch` of each: a column keeps to one label
 /// as long as it is certified. A place counts where one mode is ten times as near as the next.
-void count_labels(const RecordedTrace& trace, const std::vector<double>& parameters, int branch,
-                  const std::function<std::vector<LabelledMode>(double)>& labelled, LabelCount& count);
+void count_labels(const RecordedTrace& trace, const std::vector<LabelledPlace>& reference, int branch,
+                  LabelCount& count);
 
 }  // namespace eigentrail::test

@@ -44,10 +44,19 @@ struct Found {
   double median = 0.0;  ///< of stated / true
 };
 
-/// Of all kinds together, at random places between 8, 12 and 20 samples.
-Found study(const SampleErrorOptions& options) {
+/// A sampled function, and random places between its samples.
+struct Family {
+  Function truth;
+  SampledData data;
+  std::vector<SamplePiece> pieces;
+  std::array<PencilSamples, 3> pencil;
+  std::vector<double> places;
+};
+
+/// Of all kinds, with 8, 12 and 20 samples.
+std::vector<Family> random_families() {
   constexpr int families = 20, places = 10;
-  std::vector<double> ratios;
+  std::vector<Family> all;
   for (int kind = 0; kind < n_kinds; ++kind) {
     for (const int samples : {8, 12, 20}) {
       for (int family = 0; family < families; ++family) {
@@ -65,20 +74,30 @@ Found study(const SampleErrorOptions& options) {
         const std::array<PencilSamples, 3> pencil{PencilSamples{2, {Matrix::Zero(1, 1)}},
                                                   PencilSamples{1, {Matrix::Identity(1, 1)}},
                                                   PencilSamples{0, K}};
-        const InterpolationErrors errors(0, data.values, pencil, pieces, options);
         std::uniform_real_distribution<double> uniform(0.0, 1.0);
-        for (int i = 0; i < places; ++i) {
-          const double p = uniform(engine);
-          const Vector weights = pieces[0].interpolant.values(p);
-          double s = 0.0;
-          for (Eigen::Index j = 0; j < weights.size(); ++j)
-            s += weights[j] * data.A[static_cast<std::size_t>(j)](0, 0);
-          const EigenTriple triple{s, ComplexVector::Ones(1), ComplexVector::Ones(1)};
-          const double stated =
-              errors.between(gap_of(data.values, p), {&triple, 1}).interpolation(errors.shape(p))[0];
-          ratios.push_back((stated + 1e-13) / std::max(std::abs(s - truth(p)), 1e-13));
-        }
+        std::vector<double> at(places);
+        for (double& p : at) p = uniform(engine);
+        all.push_back({truth, data, pieces, pencil, at});
       }
+    }
+  }
+  return all;
+}
+
+/// Of all families together.
+Found study(const std::vector<Family>& families, const SampleErrorOptions& options) {
+  std::vector<double> ratios;
+  for (const Family& family : families) {
+    const std::vector<double>& values = family.data.values;
+    const InterpolationErrors errors(0, values, family.pencil, family.pieces, options);
+    for (const double p : family.places) {
+      const Vector weights = family.pieces[0].interpolant.values(p);
+      double s = 0.0;
+      for (Eigen::Index j = 0; j < weights.size(); ++j)
+        s += weights[j] * family.data.A[static_cast<std::size_t>(j)](0, 0);
+      const EigenTriple triple{s, ComplexVector::Ones(1), ComplexVector::Ones(1)};
+      const double stated = errors.between(gap_of(values, p), {&triple, 1}).interpolation(errors.shape(p))[0];
+      ratios.push_back((stated + 1e-13) / std::max(std::abs(s - family.truth(p)), 1e-13));
     }
   }
   Found found;
@@ -101,7 +120,8 @@ struct Varied {
 /// One function alone shows least: what is smooth in it and what is not cannot be told apart by others.
 TEST(SampleErrorOptions, ThreeTimesMoreOrLessOfEachChangesWhatIsStatedLittle) {
   const SampleErrorOptions usual;
-  const Found found = study(usual);
+  const std::vector<Family> families = random_families();
+  const Found found = study(families, usual);
   EXPECT_GE(found.within, 0.998);
   EXPECT_LT(found.median, 40.0);
   const auto thrice = [](const char* name, double SampleErrorOptions::*option) {
@@ -124,7 +144,7 @@ TEST(SampleErrorOptions, ThreeTimesMoreOrLessOfEachChangesWhatIsStatedLittle) {
     for (const double value : {one.less, one.more}) {
       SampleErrorOptions options;
       options.*one.option = value;
-      const Found varied = study(options);
+      const Found varied = study(families, options);
       EXPECT_GE(varied.within, 0.98) << one.name << " = " << value;
       EXPECT_GT(varied.median, found.median / 3.0) << one.name << " = " << value;
       EXPECT_LT(varied.median, found.median * 3.0) << one.name << " = " << value;

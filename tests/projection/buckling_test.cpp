@@ -4,17 +4,18 @@
 #include <Eigen/Eigenvalues>
 
 #include "eigentrail/projection/project.hpp"
+#include "eigentrail/projection/route.hpp"
 #include "eigentrail/steady/equilibrium.hpp"
 #include "support/scenes.hpp"
 
 namespace eigentrail::test::buckling_test {
 namespace {
 
-/// A column of 100 elements that stands on a clamp, 1212 coordinates, under a growing weight w per length, in
+/// A column of 60 elements that stands on a clamp, 732 coordinates, under a growing weight w per length, in
 /// EI / L^3.
 Setting column(const std::string& modes) {
   return scene_setting("rotating_cantilever", {{"modes", modes}, {"to", "8.5"}},
-                       {{"elements     = 10", "elements = 100\ndegree = 1"},
+                       {{"elements     = 10", "elements = 60\ndegree = 1"},
                         {"slender = 1e-6", "slender = 1e-4\nw = 0"},
                         {"parameter = \"eta\"", "parameter = \"w\""},
                         {"[[beam]] ", "[gravity]\nacceleration = [\"-w\", 0, 0]\n[[beam]] "}});
@@ -28,6 +29,7 @@ struct Buckling {
   std::vector<Event> branch_points;
 
   explicit Buckling(Setting setting) {
+    EXPECT_TRUE(is_large(*setting.model, setting.options));
     project_if_large(setting.model, setting.options);
     trace = record_trace(setting);
     EXPECT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;

@@ -31,13 +31,13 @@ struct Traced {
 /// Projects and traces; the dense output at random places.
 Traced run(const TraceSetup& setup, int n_places, const ProjectionOptions& options = {}) {
   Traced traced;
-  traced.model = projected_family(setup, setup.options, options);
   Setting setting;
   setting.scene = setup.scene;
   setting.options = setup.options;
   setting.model = projected_family(setup, setup.options, options);
   const RecordedTrace record = record_trace(setting);
   traced.result = record.result;
+  traced.model.reset(dynamic_cast<ProjectedFamily*>(setting.model.release()));
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> places(setup.options.from, setup.options.to);
   for (int i = 0; i < n_places; ++i) {

@@ -149,8 +149,9 @@ FamilyReport run_family(const PlantedFamily& family, const RunSetting& setting) 
   report.events = compare_events(hard_case, trace, setting.tolerance);
   count_kinds(hard_case, trace, report);
   report.wrong_modes = wrong_modes(family, trace, report.events);
-  count_labels(
-      trace, label_parameters(hard_case), 0, [&](double p) { return family.labelled(p); }, report.labels);
+  std::vector<LabelledPlace> labelled;
+  for (const double p : label_parameters(hard_case)) labelled.push_back({p, family.labelled(p)});
+  count_labels(trace, labelled, 0, report.labels);
   return report;
 }
 

@@ -48,11 +48,11 @@ class Chain:
     def gradient(self, q):
         """Of the energy of springs and weights."""
         places, axes, centres, _, tip = self.posture(q)
-        gradient = self.springs * q
-        for k, (place, axis) in enumerate(zip(places, axes)):
-            arm = self.m * sum(c - place for c in centres[k // 2:]) + self.tip * (tip - place)
-            gradient = gradient + self.g * np.cross(axis, arm)[2] * (np.arange(2 * self.n) == k)
-        return gradient
+        places, axes = np.array(places), np.array(axes)
+        moved = np.repeat(np.arange(self.n, 0, -1), 2)[:, None]  # links beyond a hinge
+        centre = np.repeat(np.cumsum(centres[::-1], axis=0)[::-1], 2, axis=0)
+        arm = self.m * (centre - moved * places) + self.tip * (tip - places)
+        return self.springs * q + self.g * (axes[:, 0] * arm[:, 1] - axes[:, 1] * arm[:, 0])
 
     def hessian(self, q):
         """By complex steps, exact to rounding."""

@@ -43,6 +43,26 @@ std::vector<Complex> quadratic_eigenvalues(const Matrix& M, const Matrix& C, con
   return qz_eigenvalues(pencil.A, pencil.E);
 }
 
+ComplexVector qr_eigenvalues(Matrix A) {
+  const auto n = static_cast<lapack_int>(A.rows());
+  Vector real(n), imag(n);
+  if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, A.data(), n, real.data(), imag.data(), nullptr, 1, nullptr,
+                    1) != 0)
+    throw std::runtime_error("dgeev did not converge");
+  ComplexVector s(n);
+  s.real() = real;
+  s.imag() = imag;
+  return s;
+}
+
+ComplexVector qr_eigenvalues(ComplexMatrix A) {
+  const auto n = static_cast<lapack_int>(A.rows());
+  ComplexVector s(n);
+  if (LAPACKE_zgeev(LAPACK_COL_MAJOR, 'N', 'N', n, A.data(), n, s.data(), nullptr, 1, nullptr, 1) != 0)
+    throw std::runtime_error("zgeev did not converge");
+  return s;
+}
+
 double relative_distance(Complex s, const std::vector<Complex>& spectrum) {
   double nearest = INFINITY;
   for (const Complex other : spectrum) nearest = std::min(nearest, std::abs(s - other));

@@ -21,6 +21,10 @@ CompanionPencil companion_pencil(const Matrix& M, const Matrix& C, const Matrix&
 /// All 2n eigenvalues of (s^2 M + s C + K) z = 0 from the unscaled companion form.
 std::vector<Complex> quadratic_eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K);
 
+/// All eigenvalues of a matrix by LAPACK's QR; those of a real one are exactly conjugate.
+ComplexVector qr_eigenvalues(Matrix A);
+ComplexVector qr_eigenvalues(ComplexMatrix A);
+
 /// Distance from s to the nearest member of `spectrum`, relative to |s|.
 double relative_distance(Complex s, const std::vector<Complex>& spectrum);
 

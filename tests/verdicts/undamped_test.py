@@ -50,7 +50,7 @@ def grows(matrices, p, margin):
 
 
 class RandomFamilies(VerdictTest):
-    families = 24
+    families = 16
     first = 0
 
     def seeds(self):
