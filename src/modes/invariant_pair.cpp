@@ -183,17 +183,13 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
   return PairStatus::not_converged;
 }
 
-/// Entries below this share of the reference are what rounding leaves of a zero. Products of such numbers
-/// leave the range of a double.
-constexpr double remnant = 1e-60;
+}  // namespace
 
-void remove_remnants(double reference, ComplexMatrix& Lambda) {
+void remove_remnants(double reference, double tolerance, ComplexMatrix& Lambda) {
   for (Complex& entry : Lambda.reshaped()) {
-    if (std::abs(entry) < remnant * reference) entry = 0.0;
+    if (std::abs(entry) < tolerance * tolerance * reference) entry = 0.0;
   }
 }
-
-}  // namespace
 
 InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& start, double reference,
                            const CorrectorOptions& options, ModeCounts& counts) {
@@ -210,7 +206,7 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   }
   pair.status = newton(pencil, reference, options, pair, counts);
   if (pair.status != PairStatus::converged) return pair;
-  remove_remnants(reference, pair.Lambda);
+  remove_remnants(reference, options.tolerance, pair.Lambda);
   settle_accuracy(pencil, pencil.residual(pair.Z, pair.Lambda).norm(),
                   pair.factors->sensitivity(pencil.terms(pair.Z, pair.Lambda)), reference, pair);
   counts.solves += static_cast<std::uint64_t>(pair.size() * pair.size());
