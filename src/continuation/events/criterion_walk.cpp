@@ -268,7 +268,7 @@ class CriterionWalk {
 
   /// Of a zero of a product: the other eigenvalue, which is the sum of both there. Else 1.
   double other_factor() const {
-    if (!by_product_) return 1.0;
+    if (!by_product_ || mode_->is_mean) return 1.0;
     const Track& there = mode_->solved.node.tracks.front();
     const int root = nearest_member(there, mode_->root, member_);
     return (there.roots[root] + there.roots[partner_of_root(there, root)]).real();
@@ -279,9 +279,9 @@ class CriterionWalk {
     const Track& there = mode_->solved.node.tracks.front();
     if (by_product_) {
       const std::vector<int> factors{members.front(), partner_of_root(there, members.front())};
-      const ComplexVector product =
-          product_series(part_series(along_q.series.Lambda, roots_of(there, factors)));
-      return product.size() < 2 ? NAN : product[1].real();
+      const auto part = part_series(along_q.series.Lambda, roots_of(there, factors));
+      if (part.size() < 2) return NAN;
+      return (mode_->is_mean ? mean_series(part) : product_series(part))[1].real();
     }
     const Complex slope = mean_slope(along_q, roots_of(there, members));
     const Vector excitation = excitation_at(search_, along).head(2);

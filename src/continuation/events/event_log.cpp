@@ -77,8 +77,10 @@ bool EventLog::has_collision_at(const Event& zero, bool located, double s_ref) c
     // double eigenvalue. If the collision is off the axis, a zero that has been located is a different event
     // unless its place is the same to the accuracy of a zero.
     const bool meets_on_axis = other.s.real() == 0.0;
-    // The real eigenvalues of a pair that meets off the axis are not zero there.
-    if (zero.kind == EventKind::divergence && located && !meets_on_axis) return false;
+    // The real eigenvalues of a pair that meets off the axis are not zero there, and of two that do not part
+    // from each other like a root one goes on through zero.
+    if (zero.kind == EventKind::divergence && located && (!meets_on_axis || other.puiseux == 0.0))
+      return false;
     const EventThresholds& same = thresholds.event;
     const double place =
         (located && !meets_on_axis ? same.same_place : same.same_double_root) * range.length();

@@ -126,6 +126,7 @@ void classify(const std::vector<Complex>& roots, double reach, const RootResolut
     meeting.kind = known.defective ? EventKind::collision : EventKind::crossing;
     meeting.is_certain = known.defective || separation <= left_of_a_crossing * known.roots;
     meeting.offset = 0.5 * (first + second).real();
+    meeting.puiseux = 0.0;  // they pass through each other
   } else if (std::abs(first.imag()) <= on_axis) {
     meeting.kind = EventKind::collision;
   } else {

@@ -35,18 +35,24 @@ std::optional<SolvedPoint> solve_alone(const PointSolver& solver, const TracksAt
   return there;
 }
 
-/// The product of an eigenvalue with its partner, as a mode.
-std::optional<NearbyMode> product_with_partner(std::optional<SolvedPoint> there, Complex expected) {
+/// The product of an eigenvalue with its partner, as a mode; the mean where the product stays zero, with a
+/// rigid-body motion.
+std::optional<NearbyMode> product_with_partner(const RoundingThresholds& thresholds,
+                                               std::optional<SolvedPoint> there, Complex expected) {
   if (!there) return std::nullopt;
   const Track& track = there->node.tracks.front();
   const auto root = static_cast<int>(nearest_root(track.roots, expected));
   const int partner = partner_of_root(track, root);
   if (partner < 0) return std::nullopt;
-  const ComplexVector series =
-      product_series(part_series(track.series.Lambda, roots_of(track, {root, partner})));
-  if (series.size() == 0) return std::nullopt;
+  const std::vector<ComplexMatrix> part = part_series(track.series.Lambda, roots_of(track, {root, partner}));
+  if (part.size() < 2) return std::nullopt;
+  const ComplexVector product = product_series(part);
+  const double rounding = thresholds.entries * track.pair.rounding;
+  const bool stays_zero = std::abs(product[0]) <= rounding * part[0].norm() &&
+                          std::abs(product[1]) <= rounding * (part[0].norm() + part[1].norm());
   const Complex s = track.roots[root];
-  return NearbyMode{std::move(*there), s, series, std::abs(s - track.roots[partner]), false};
+  const double gap = std::abs(s - track.roots[partner]);
+  return NearbyMode{std::move(*there), s, stays_zero ? mean_series(part) : product, gap, stays_zero};
 }
 
 }  // namespace
@@ -71,7 +77,8 @@ Complex upper_member(Complex mu, Chart chart) {
 std::optional<NearbyMode> look_at_mode(const PointSolver& solver, const PathNode& left, std::size_t track,
                                        Complex expected, double h, ModeFunction wanted) {
   const TracksAt base = one_track(left, track);
-  if (wanted == ModeFunction::product) return product_with_partner(solver.follow(base, h), expected);
+  if (wanted == ModeFunction::product)
+    return product_with_partner(solver.problem().thresholds.rounding, solver.follow(base, h), expected);
   std::optional<SolvedPoint> beside = solve_alone(solver, base, expected, h);
   if (!beside) beside = solver.follow(base, h);
   if (!beside) return std::nullopt;

@@ -10,7 +10,8 @@ namespace eigentrail {
 enum class ModeFunction {
   eigenvalue,
   pair_mean,  ///< real part of a complex pair: the mean of the block, smooth also where the pair is defective
-  product     ///< of two eigenvalues of a real block, the mode's and the one it meets; smooth where they meet
+  product  ///< of two eigenvalues of a real block, the mode's and the one it meets; smooth where they meet.
+           ///< Their mean where one of them stays zero, and the product with it
 };
 
 struct NearbyMode {
@@ -18,7 +19,7 @@ struct NearbyMode {
   Complex root;          ///< the eigenvalue in the chart of the track, the upper member of a pair
   ComplexVector series;  ///< Taylor coefficients of the function; empty where an eigenvalue is not simple
   double gap = 0.0;      ///< least distance of two eigenvalues of the block; infinite for a single mode
-  bool is_mean = false;  ///< `series` is the mean of a complex pair
+  bool is_mean = false;  ///< `series` is the mean of a complex pair, or of an eigenvalue and a constant zero
 };
 
 /// The eigenvalue of a track at the distance h from `left` that is nearest to `expected`, in its chart.
