@@ -18,6 +18,7 @@
 #include "continuation/trace/trace_start.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/guard_modes.hpp"
+#include "continuation/tracks/members.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
 
 namespace eigentrail {
@@ -211,6 +212,10 @@ bool TraceLoop::start() {
   const auto births = order_first_departure(meets, state_.frame, node, state_.numbers);
   inherit_histories(births, criteria_, state_.histories);
   name_births(births, met);
+  // Of two that meet here one may go on before the start only.
+  const std::vector<int> going_on = modes_of(node.tracks);
+  for (Event& event : met.events)
+    std::erase_if(event.modes, [&](int mode) { return !contains(going_on, mode); });
   EnteringModes needed = needed_at(problem_, options_, node, state_);
   begin_here(problem_, std::move(needed.tracks), node, state_.numbers);
   number_growing_guards(problem_, node, node, state_.numbers);
