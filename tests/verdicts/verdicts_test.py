@@ -150,6 +150,42 @@ class Zeros(VerdictTest):
         self.assertLess(max(found[:-1]), 1e-12)
         self.run_well("verify", file)  # also beside the collision, where yaw is zero at both ends of the step
 
+    def test_a_divergence_through_a_rigid_body_zero_is_one(self):
+        # A mass with the damping p slides freely: s = 0 and -p. Two masses, of which nothing holds the first one: its damping
+        # 0.5 + 4 p is lost at -1/8, the stiffness 1 + 4 p of the second one at -1/4. The zero itself stays.
+        one = 'M = [[[1]]]\nC = [[[0]], [[1]]]\nK = [[[0]]]\n'
+        two = """M = [[[3, -3], [-3, 6]]]
+C = [[[0.5, -0.4], [-0.4, 0.5]], [[4, -4], [-4, 4]]]
+K = [[[0, 0], [0, 1]], [[0, 0], [0, 4]]]
+"""
+        for matrices, expected in ((one, [0.0]), (two, [-0.25, -0.125])):
+            for tolerance in (1e-6, 1e-9):
+                for ends in ((-1, 2), (2, -1)):
+                    with self.subTest(expected=expected, tolerance=tolerance, ends=ends):
+                        scene = f'[trace]\nparameter = "p"\nfrom = {ends[0]}\nto = {ends[1]}\n[matrix_family]\n{matrices}'
+                        file = self.trace(scene, "--force", "--tolerance", tolerance)
+                        for place, p in zip(self.places(file, "divergence"), expected, strict=True):
+                            self.assertAlmostEqual(place, p, delta=1e-9)
+                        self.assertEqual(self.run_well("events", file).count("unstable below"), len(expected))
+                        self.assertEqual([sorted(ends) for _, *ends in self.ranges(file)], [[expected[-1], 2.0]])
+                        self.run_well("verify", file)
+
+    def test_special_points_at_the_start_name_modes_of_the_file(self):
+        # Twice zero at the start, then a pair: of the two real ones that meet there one is gone behind it.
+        file = self.trace("""[trace]
+parameter = "p"
+from = 0
+to = 3
+[matrix_family]
+M = [[[7, -2, -5, 4], [-2, 5, 2, 4], [-5, 2, 7, -4], [4, 4, -4, 17]]]
+K = [[[8, 6, -2, 6], [6, 6, 0, 4], [-2, 0, 5, -1], [6, 4, -1, 5]], [[6, -5, -2, -4], [1, 4, 0, -2], [-6, 4, 6, 2], [-2, -6, 0, 9]]]
+""")
+        with self.open(file) as loci:
+            modes = loci["mode"].size
+        named = {int(mode) for row in self.events(file) for mode in row["modes"].split(";")}
+        self.assertLessEqual(max(named), modes)
+        self.run_well("verify", file)
+
 
 class Undamped(VerdictTest):
     def test_a_conservative_column_does_not_flutter(self):
@@ -189,6 +225,7 @@ class Undamped(VerdictTest):
         file = self.trace_model("indefinite_mass")
         self.assertEqual(self.events(file, "divergence", "flutter"), [])
         self.assertEqual(len(self.events(file, "collision")), 3)
+        self.run_well("verify", self.trace_model("indefinite_mass", "--tolerance", 1e-9, output="fine.h5"))
 
     def test_a_damper_that_is_idle_at_one_place_begins_no_instability(self):
         # Two equal masses on springs k and 10, a damper between them: at k = 10 they move in step, and Re s touches zero from below.
