@@ -190,8 +190,8 @@ class ForeignModel final : public Model {
 };
 
 TEST(Reference, RefinesThoseBesideFollowedOnesAndKeepsTheOthers) {
-  // s^2 + 1 and s^2 + 7; the first is followed, and known to a thousandth.
-  const Setting setting = family("[[[1, 0], [0, 7]]]");
+  // s^2 + 1 and s^2 + 6.5 + p; the first is followed, and known to a thousandth.
+  const Setting setting = family("[[[1, 0], [0, 6.5]], [[0, 0], [0, 1]]]");
   ReferenceSpectrum found =
       reference_of(setting, 0.5, ComplexVector{{Complex(0.0, 1.001), Complex(NAN, NAN)}});
   ASSERT_EQ(found.s.size(), 2U);

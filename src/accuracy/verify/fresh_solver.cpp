@@ -97,7 +97,7 @@ EquilibriumGuess guess_on_chord(const PathProblem& problem, const LociFile& loci
   return guess;
 }
 
-/// The eigenvalues at a point by QZ, refined if asked for; empty if they cannot be computed.
+/// The eigenvalues at a point by QR or QZ, refined if asked for; empty if they cannot be computed.
 std::vector<Complex> eigenvalues_of(const PathPoint& point, bool refined) {
   if (point.status != PointStatus::computed) return {};
   const ReducedPencil whole{{point.pencil.M[0]}, {point.pencil.C[0]}, {point.pencil.K[0]}};
