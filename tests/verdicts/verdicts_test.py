@@ -170,6 +170,21 @@ K = [[[0, 0], [0, 1]], [[0, 0], [0, 4]]]
                         self.assertEqual([sorted(ends) for _, *ends in self.ranges(file)], [[expected[-1], 2.0]])
                         self.run_well("verify", file)
 
+    def test_the_accuracy_of_zeros_at_the_start_does_not_follow_from_their_rounding(self):
+        # Four of six eigenvalues are zero at the start, two of them throughout: nothing oscillates there.
+        file = self.trace("""[trace]
+parameter = "p"
+from = 0
+to = 3
+[matrix_family]
+M = [[[2, -1, -2], [-1, 7, 0], [-2, 0, 6]]]
+C = [[[1, 1, 1], [1, 1, 1], [1, 1, 1]]]
+K = [[[1, 0, 1], [0, 0, 0], [1, 0, 1]], [[2, -1, 3], [-1, 1, -2], [3, -2, 5]]]
+""")
+        with self.open(file) as loci:
+            self.assertLess(loci["p"].size, 60)
+        self.run_well("verify", file)
+
     def test_special_points_at_the_start_name_modes_of_the_file(self):
         # Twice zero at the start, then a pair: of the two real ones that meet there one is gone behind it.
         file = self.trace("""[trace]

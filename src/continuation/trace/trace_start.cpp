@@ -22,8 +22,8 @@ constexpr double reference_share = 1e-3;
 /// s_ref is at most this share of the slowest oscillation, so that every oscillation has its relative
 /// accuracy. A smaller value costs points where eigenvalues pass zero.
 constexpr double share_of_slowest = 0.1;
-/// Least median |s| that is used, as a share of the scale of the pencil. A smaller median is rounding: most
-/// modes are rigid-body motions.
+/// Least |s| that counts, as a share of the scale of the pencil, and the median where none does: smaller ones
+/// are rounding, those of rigid-body motions.
 constexpr double rigid_share = 1e-6;
 /// s_max / largest |s| at the start: magnitude from which an eigenvalue counts as infinite. A larger value
 /// lets an eigenvalue be followed farther, a smaller one ends it where it may still be of interest.
@@ -256,10 +256,12 @@ int Start::structural_infinities() const {
   return count;
 }
 
-/// Magnitudes, ascending, of those of the first `n` modes that oscillate; of all of them if none does.
-std::vector<double> typical_sizes(const std::vector<StartingMode>& modes, std::size_t n) {
+/// Magnitudes above `zero`, ascending, of those of the first `n` modes that oscillate; of all of them if none
+/// does. Below it is what rounding makes of rigid-body motions.
+std::vector<double> typical_sizes(const std::vector<StartingMode>& modes, std::size_t n, double zero) {
   std::vector<double> all, oscillating;
   for (std::size_t i = 0; i < n; ++i) {
+    if (!(std::abs(modes[i].s) > zero)) continue;
     all.push_back(std::abs(modes[i].s));
     if (oscillates(modes[i].s)) oscillating.push_back(all.back());
   }
@@ -271,9 +273,10 @@ void Start::settle_magnitudes(const Spectrum& spectrum) {
   // On a branch point eigenvalues vanish. Their size beside it is the scale.
   const auto beside = state_.frame.bridge ? spectrum_beside_branch_point() : std::nullopt;
   const std::vector<StartingMode>& typical = beside ? beside->modes : spectrum.modes;
+  const double zero = rigid_share * spectrum.scale;
   const std::vector<double> sizes =
-      typical_sizes(typical, std::min(static_cast<std::size_t>(result_.n_modes), typical.size()));
-  const double median = std::max(sizes[sizes.size() / 2], rigid_share * spectrum.scale);
+      typical_sizes(typical, std::min(static_cast<std::size_t>(result_.n_modes), typical.size()), zero);
+  const double median = sizes.empty() ? zero : sizes[sizes.size() / 2];
   problem_.s_ref = result_.s_ref = options_.reference.value_or(reference_share * median);
   const double largest =
       std::abs(std::max_element(typical.begin(), typical.end(), [](const auto& a, const auto& b) {
