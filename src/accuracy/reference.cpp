@@ -283,21 +283,20 @@ void refine_modes(const ExtendedPencil& extended, const std::optional<ComplexVec
     const std::vector<std::size_t> group(indices.begin(), indices.end());
     const bool real = members.closed(group);
     if (!real && members.mean(group).imag() < 0.0) continue;
-    if (std::ranges::none_of(group, [&](std::size_t i) { return is_wanted[i]; })) {
-      for (const std::size_t i : group) {
-        const Complex s = members.s[i];
-        if (!real || s.imag() >= 0.0) result.s.emplace_back(s.real(), s.imag());
-      }
-      continue;
+    std::vector<ExtendedComplex> found;
+    if (std::ranges::any_of(group, [&](std::size_t i) { return is_wanted[i]; })) {
+      const InvariantPair pair = correct_pair(
+          at_point, starting_pair(pencil, spectrum, members, group, reference), reference, {}, counts);
+      if (pair.status != PairStatus::converged) return;
+      ExtendedComplexMatrix Lambda;
+      const double last = refine_pair(extended, pair, reference, Lambda);
+      if (!(last <= reference_accuracy)) return;
+      result.correction = std::max(result.correction, last);
+      found = eigenvalues(Lambda, real);
+    } else {
+      for (const std::size_t i : group) found.emplace_back(members.s[i].real(), members.s[i].imag());
     }
-    const InvariantPair pair = correct_pair(
-        at_point, starting_pair(pencil, spectrum, members, group, reference), reference, {}, counts);
-    if (pair.status != PairStatus::converged) return;
-    ExtendedComplexMatrix Lambda;
-    const double last = refine_pair(extended, pair, reference, Lambda);
-    if (!(last <= reference_accuracy)) return;
-    result.correction = std::max(result.correction, last);
-    for (const ExtendedComplex& s : eigenvalues(Lambda, real)) {
+    for (const ExtendedComplex& s : found) {
       if (!real || s.imag() >= Extended(0.0)) result.s.push_back(s);
     }
   }
