@@ -24,7 +24,7 @@ struct Evaluated {
   double p = 0.0;
   std::string mode;
   Complex s;
-  bool is_zero = false;  ///< the mode is zero throughout: s is rounding
+  Complex shown;  ///< the same without rounding
   /// Bounds of errors that come from the data of the model; NaN if it has none.
   double interpolation = NAN, digits = NAN;
   Vector trimmed = {};  ///< values of the trimmed parameters
@@ -39,10 +39,11 @@ std::vector<Evaluated> all_values(const LociFile& loci, const std::vector<double
     const auto positions = loci.positions(p);
     for (std::size_t passage = 0; passage < passages.size(); ++passage) {
       const ComplexVector& s = passages[passage];
+      const ComplexVector shown = passage < positions.size() ? loci.shown_at(positions[passage]) : s;
       for (Eigen::Index i = 0; i < s.size(); ++i) {
         if (std::isnan(s[i].real())) continue;
         const auto mode = static_cast<std::size_t>(i);
-        Evaluated value{p, loci.modes[mode], s[i], permanence[mode] == Permanence::zero};
+        Evaluated value{p, loci.modes[mode], s[i], permanence[mode] == Permanence::zero ? 0.0 : shown[i]};
         if (loci.data_errors && passage < positions.size()) {
           const auto step = static_cast<Eigen::Index>(positions[passage].step);
           value.interpolation = loci.data_errors->interpolation(step, i);
@@ -83,7 +84,7 @@ void print_for_people(const LociFile& loci, const std::vector<Evaluated>& values
   for (const TrimmedParameter& trimmed : loci.trimmed)
     rows[0].push_back(trimmed.name + (trimmed.unit == "1" ? "" : ", " + trimmed.unit));
   for (const Evaluated& value : values) {
-    const Complex s = value.is_zero ? Complex(0.0) : without_rounding(value.s, 0.0);
+    const Complex s = without_rounding(value.shown, 0.0);
     const double size = std::abs(s);
     const double decrement = log_decrement(s);
     const bool has_damping = std::isfinite(size) && size > 0.0;

@@ -93,15 +93,16 @@ void print_for_people(const LociFile& loci) {
   std::vector<std::vector<std::string>> rows{{"mode", "what moves", "s at the start", "s at the end",
                                               "certified", "worst residual", "worst condition"}};
   const std::vector<Permanence> permanence = permanence_of_modes(loci);
-  const auto end_value = [&](Eigen::Index node, std::size_t mode) {
+  const auto end_value = [&](const ComplexVector& end, std::size_t mode) {
     if (permanence[mode] == Permanence::zero) return std::string("0");
-    const Complex s = loci.eigenvalues(node, static_cast<Eigen::Index>(mode));
+    const Complex s = end[static_cast<Eigen::Index>(mode)];
     return std::isnan(s.real()) ? std::string("-") : eigenvalue_text(s, 8);
   };
+  const ComplexVector first = loci.shown_at(loci.at_node(0)),
+                      last = loci.shown_at(loci.at_node(loci.n_nodes() - 1));
   for (std::size_t i = 0; i < loci.modes.size(); ++i) {
     const double share = loci.certified_share(i);
-    rows.push_back({loci.modes[i], cell_text(loci.mode_names[i]), end_value(0, i),
-                    end_value(static_cast<Eigen::Index>(loci.n_nodes()) - 1, i),
+    rows.push_back({loci.modes[i], cell_text(loci.mode_names[i]), end_value(first, i), end_value(last, i),
                     std::isnan(share) ? "-" : percent(share, 4),
                     rounded(column_maximum(loci.residual, i, loci.modes.size()), 2),
                     rounded(column_maximum(loci.condition, i, loci.modes.size()), 3)});

@@ -72,7 +72,7 @@ void print_modes(const char* label, const std::vector<std::size_t>& modes) {
 
 std::vector<std::string> table_row(const ShownPoint& point, std::size_t i) {
   const OperatingMode& mode = point.modes[i];
-  const Complex s = without_rounding(mode);
+  const Complex s = shown(mode);
   const double ratio = -s.real() / std::abs(s);
   const double decrement = log_decrement(s);
   std::vector<std::string> row{std::to_string(i + 1), complex_text(s.real() + 0.0, s.imag(), 8)};
@@ -93,7 +93,7 @@ void print_point(const ShownPoint& point) {
   std::vector<std::size_t> growing, undecided, unknown;
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
     rows.push_back(table_row(point, i));
-    const double real = without_rounding(point.modes[i]).real();
+    const double real = shown(point.modes[i]).real();
     if (std::abs(real) <= point.error(i) && point.error(i) > 0.0) {
       undecided.push_back(i + 1);
     } else if (real > 0.0) {

@@ -1,6 +1,7 @@
 #include "trace_summary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -89,19 +90,20 @@ std::vector<std::string> motion_cells(Complex s, const FrequencyUnit& unit, doub
 
 void print_modes(const TraceSummary& trace, const std::vector<Permanence>& permanence,
                  const FrequencyUnit& unit) {
-  const Matrix::Index last = trace.path.eigenvalues.rows() - 1;
+  const RecordedPath& path = trace.path;
+  const std::array ends{path.shown_at(path.at_node(0)), path.shown_at(path.at_node(path.n_nodes() - 1))};
   std::vector<std::vector<std::string>> rows{
       {"mode", unit.name + " at " + exact_text(trace.setup.options.from), "damping",
        unit.name + " at " + exact_text(trace.result.reached), "damping", "what moves"}};
   // A mode that was found on the step at which the trace was stopped has no column yet.
-  const int columns = std::min(trace.result.n_columns, static_cast<int>(trace.path.eigenvalues.cols()));
+  const int columns = std::min(trace.result.n_columns, static_cast<int>(path.eigenvalues.cols()));
   for (int mode = 0; mode < columns; ++mode) {
     // A pair that only rounding took for two real modes at the start has a second number, and no eigenvalue.
-    if (trace.path.eigenvalues.col(mode).array().isNaN().all()) continue;
+    if (path.eigenvalues.col(mode).array().isNaN().all()) continue;
     std::vector<std::string> row{std::to_string(mode + 1)};
-    for (const Matrix::Index at : {Matrix::Index{0}, last}) {
+    for (const ComplexVector& end : ends) {
       const bool is_zero = permanence[static_cast<std::size_t>(mode)] == Permanence::zero;
-      const Complex s = is_zero ? Complex(0.0) : trace.path.eigenvalues(at, mode);
+      const Complex s = is_zero ? Complex(0.0) : end[mode];
       const auto cells = motion_cells(s, unit, trace.result.s_ref);
       row.insert(row.end(), cells.begin(), cells.end());
     }

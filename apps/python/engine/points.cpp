@@ -46,7 +46,7 @@ py::dict spectrum(const Scene& scene, const Options& options, std::vector<double
     if (!points[k].fault.empty()) faults.append(py::make_tuple(points[k].p, points[k].fault));
     for (std::size_t i = 0; i < points[k].modes.size(); ++i) {
       const OperatingMode& mode = points[k].modes[i];
-      const Complex s = without_rounding(mode);
+      const Complex s = shown(mode);
       py::dict row("parameter"_a = points[k].p, "mode"_a = i + 1, "eigenvalue"_a = mode.s,
                    "natural_frequency"_a = std::abs(s), "damped_frequency"_a = std::abs(s.imag()),
                    "damping_ratio"_a = -s.real() / std::abs(s), "what_moves"_a = mode.what_moves,

@@ -6,6 +6,9 @@
 
 namespace eigentrail {
 
+/// An eigenvalue as it is shown: zero where it is, or its real part is, within its error by rounding, 1/s.
+Complex shown(Complex s, double rounding);
+
 /// Bounds of the errors (1/s) of the eigenvalues of a block of two and more at t in [0, 1] of a step of
 /// signed length `length`, in the order of the block's modes. They follow from the estimated errors of its
 /// functions, no larger than what a trace promises, and from their rounding: equal eigenvalues that are not

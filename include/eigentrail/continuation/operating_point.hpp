@@ -20,7 +20,7 @@ struct OperatingMode {
 };
 
 /// The eigenvalue as it is shown: zero where it is, or its real part is, within rounding.
-Complex without_rounding(const OperatingMode& mode);
+Complex shown(const OperatingMode& mode);
 
 struct OperatingPoint {
   double p = 0.0;

@@ -29,6 +29,10 @@ struct RecordedPath {
   std::vector<int> growing_unfollowed = {};
 
   std::size_t n_nodes() const { return p.size(); }
+  /// The place of a node.
+  PathPosition at_node(std::size_t node) const {
+    return node == 0 ? PathPosition{} : PathPosition{node - 1, 1.0};
+  }
   /// The error of an eigenvalue at a node by rounding, 1/s; zero if it is not known.
   double rounding_at(std::size_t node, int mode) const;
   double lowest() const;   ///< least parameter value of all nodes; NaN without nodes
@@ -54,6 +58,10 @@ struct RecordedPath {
   /// Eigenvalues s of all modes at a place; NaN where a mode does not exist. A complex pair is represented by
   /// its member with Im s >= 0.
   ComplexVector eigenvalues_at(const Position& position) const;
+
+  /// The same as they are shown: zero where they, or their real parts, are below their errors by rounding at
+  /// the place, or on either side of it.
+  ComplexVector shown_at(const Position& position) const;
 };
 
 /// Collects the points that a trace hands to its observer.

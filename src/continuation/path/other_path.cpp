@@ -86,6 +86,7 @@ struct Departures {
   Vector move;                               ///< change of x ahead
   Eigen::Index most = 0;                     ///< index of the coordinate that changes most
   bool moves = false;                        ///< whether that one changes at all
+  bool is_vertical = false;                  ///< p stays: a line of equilibria, as where a spring is lost
 
   bool is_pitchfork() const {
     return std::abs(rise_ahead - rise_back) <= alike * (std::abs(rise_ahead) + std::abs(rise_back));
@@ -102,6 +103,8 @@ Departures departures_on(const PointSolver& solver, const PathPlane& plane, cons
   Departures changes;
   changes.rise_ahead = ahead.parameters(traced, 0) - node.p;
   changes.rise_back = back.parameters(traced, 0) - node.p;
+  changes.is_vertical = std::max(std::abs(changes.rise_ahead), std::abs(changes.rise_back)) <=
+                        same_point * solver.frame().scales().p;
   changes.move = ahead.x.col(0) - node.path.x.col(0);
   changes.move.cwiseAbs().maxCoeff(&changes.most);
   changes.moves = std::abs(changes.move[changes.most]) > no_motion * reach * solver.frame().scales().x;
@@ -114,7 +117,7 @@ std::string in_words(const PathProblem& problem, const Departures& changes, doub
   const bool ahead = direction > 0.0;
   const double rise = ahead ? changes.rise_ahead : changes.rise_back;
   std::string text = description.parameters.names()[static_cast<std::size_t>(problem.traced)];
-  text += rise > 0.0 ? " rises" : " falls";
+  text += changes.is_vertical ? " stays" : rise > 0.0 ? " rises" : " falls";
   if (!changes.moves) return text;
   text += ", " + description.coordinate_names[static_cast<std::size_t>(changes.most)];
   return text + ((changes.move[changes.most] > 0.0) == ahead ? " rises" : " falls");
@@ -136,11 +139,15 @@ BranchSurvey survey_branch_point(const PointSolver& solver, const PathNode& node
   const Departures changes = departures_on(solver, *plane, *bridge, node);
   const PathRange& range = solver.frame().range;
   const double towards = (range.to - range.from) * (changes.rise_ahead - changes.rise_back);
-  const bool turns = changes.is_pitchfork() ? changes.move[changes.most] < 0.0 : towards < 0.0;
+  const bool symmetric = changes.is_vertical || changes.is_pitchfork();
+  const bool turns = symmetric ? changes.move[changes.most] < 0.0 : towards < 0.0;
   const double direction = turns ? -1.0 : 1.0;
   const PathProblem& problem = solver.problem();
   return {PathPlane{direction * plane->x, direction * plane->p},
-          note + (changes.is_pitchfork() ? " (a pitchfork)" : "") +
+          note +
+              (changes.is_vertical ? " (a line of equilibria)"
+               : symmetric         ? " (a pitchfork)"
+                                   : "") +
               "; branch 1 is straight on, branch 2 leaves it (" + in_words(problem, changes, direction) +
               "), branch 3 does so the other way (" + in_words(problem, changes, -direction) +
               "); the trace took " + std::to_string(choice)};

@@ -6,6 +6,7 @@
 
 #include "continuation/point/refined_spectrum.hpp"
 #include "continuation/point/separate_points.hpp"
+#include "eigentrail/continuation/eigenvalue_error.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/core/text.hpp"
@@ -159,10 +160,8 @@ void check_within_samples(const TraceSetup& setup, const std::vector<double>& va
   }
 }
 
-Complex without_rounding(const OperatingMode& mode) {
-  if (!std::isfinite(mode.rounding)) return mode.s;
-  if (std::abs(mode.s) <= mode.rounding) return 0.0;
-  return std::abs(mode.s.real()) <= mode.rounding ? Complex(0.0, mode.s.imag()) : mode.s;
+Complex shown(const OperatingMode& mode) {
+  return std::isfinite(mode.rounding) ? shown(mode.s, mode.rounding) : mode.s;
 }
 
 std::vector<OperatingPoint> operating_points(const TraceSetup& setup, const std::vector<double>& values) {

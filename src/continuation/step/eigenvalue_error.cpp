@@ -39,6 +39,11 @@ Vector function_errors(const HermiteInterpolant& dense, const ComplexVector& fun
 
 }  // namespace
 
+Complex shown(Complex s, double rounding) {
+  if (std::abs(s) <= rounding) return 0.0;
+  return std::abs(s.real()) <= rounding ? Complex(0.0, s.imag()) : s;
+}
+
 Vector block_errors(const DenseBlock& block, double length, double t, const ComplexVector& s, bool at_node,
                     double tolerance, double reference) {
   const HermiteInterpolant dense(length, block.left, block.right);

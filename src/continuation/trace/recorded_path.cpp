@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eigentrail/continuation/dense_output.hpp"
+#include "eigentrail/continuation/eigenvalue_error.hpp"
 
 namespace eigentrail {
 
@@ -68,6 +69,17 @@ ComplexVector RecordedPath::eigenvalues_at(const Position& position) const {
   if (position.t == 1.0) return eigenvalues.row(left + 1).transpose();
   return step_eigenvalues(steps[position.step], eigenvalues.row(left).transpose(),
                           eigenvalues.row(left + 1).transpose(), position.t);
+}
+
+ComplexVector RecordedPath::shown_at(const Position& position) const {
+  ComplexVector s = eigenvalues_at(position);
+  const std::size_t left = position.t == 1.0 ? position.step + 1 : position.step;
+  const std::size_t right = position.t == 0.0 ? position.step : position.step + 1;
+  for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
+    const int number = static_cast<int>(mode);
+    s[mode] = shown(s[mode], std::fmax(rounding_at(left, number), rounding_at(right, number)));
+  }
+  return s;
 }
 
 PathRecorder::PathRecorder(const RecordedPath& path) : path_(path), n_modes_(path.eigenvalues.cols()) {
