@@ -90,7 +90,7 @@ void print_summary(const BoundarySetup& setup, const BoundaryResult& result) {
               range_text(options.second_from, options.second_to).c_str(),
               rounded(options.trace.tolerance).c_str());
   if (result.curves.empty()) {
-    std::printf("  no boundary in the window\n");
+    std::printf("  no boundary %s the window\n", result.notes.empty() ? "in" : "was followed in");
   } else {
     print_curves(options, result);
   }

@@ -44,6 +44,7 @@ std::string complex_text(double real, double imag, int digits) {
 }
 
 Complex without_rounding(Complex s, double reference) {
+  if (!std::isfinite(std::abs(s))) return s;
   const double least = known_digits * std::max(std::abs(s), reference);
   const auto cleaned = [least](double part) { return std::abs(part) <= least ? 0.0 : part; };
   return {cleaned(s.real()), cleaned(s.imag())};

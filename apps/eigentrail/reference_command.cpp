@@ -60,7 +60,8 @@ EffectHelp events_help() {
     if (request.key.empty()) continue;
     help.fields.push_back({std::string(request.key), "number or list", std::string(request.help), "none"});
     if (request.of_excitation)
-      help.fields.push_back({"excitation", "rad/s", "the excitation frequency", "the traced parameter"});
+      help.fields.push_back({"excitation", "rad/s", "the excitation frequency",
+                             "the traced parameter, or the speed of the shafts"});
     if (request.of_excitation) add_operating_ranges(help);
   }
   help.fields.push_back({"extrema", "true or false", "locate extrema of damping ratios", "false"});

@@ -1,7 +1,10 @@
 #include "scene_in_words.hpp"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <optional>
 
 #include "core/texts.hpp"
@@ -80,54 +83,92 @@ std::string followed(const TraceSetup& setup, const Sizes& sizes) {
          exact_text(options.tolerance) + " of its magnitude, everywhere on the range.";
 }
 
-struct RigidMotion {
-  const char* freedom;  ///< as in the names of coordinates and in [[support]] holds
-  const char* words;
-};
-constexpr std::array<RigidMotion, 4> motions_of_shafts = {{{"x", "to move along x"},
-                                                           {"y", "to move along y"},
-                                                           {"z", "to move along its axis"},
-                                                           {"rz", "to turn about its axis"}}};
-
-/// The motion with one for the freedom of all nodes of a shaft, and `inner` for that of its elements.
-Vector rigid_motion(const std::vector<std::string>& names, const std::string& shaft, const char* freedom,
-                    double inner) {
-  const std::string begin = shaft.empty() ? "" : shaft + " ", end = std::string(": ") + freedom;
-  Vector motion = Vector::Zero(static_cast<Eigen::Index>(names.size()));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!names[i].ends_with(end)) continue;
-    if (names[i].starts_with(begin + "node ")) motion[static_cast<Eigen::Index>(i)] = 1.0;
-    if (names[i].starts_with(begin + "element ")) motion[static_cast<Eigen::Index>(i)] = inner;
-  }
-  return motion;
+/// The motions against which no force acts, up to rounding: columns, or none.
+Matrix free_directions(const Matrix& K) {
+  constexpr double rounding = 1e-12;
+  Eigen::FullPivLU<Matrix> lu(K);
+  lu.setThreshold(rounding);
+  return lu.dimensionOfKernel() > 0 ? Matrix(lu.kernel()) : Matrix(K.rows(), 0);
 }
 
-/// Whether no force acts against the motion, up to rounding of the terms that cancel.
-bool is_free(const Matrix& K, const Vector& motion) {
-  constexpr double rounding = 1e-12;
-  const Vector largest = K.cwiseAbs() * motion.cwiseAbs();
-  return motion.any() && (K * motion).cwiseAbs().maxCoeff() <= rounding * largest.maxCoeff();
+/// The nodes of a shaft, from 1, that move in some direction, and how: a row each.
+struct MovingNodes {
+  std::vector<std::size_t> nodes;
+  Matrix motions;
+};
+
+MovingNodes moving_nodes(const std::vector<std::string>& names, const SpinningShaft& shaft,
+                         const std::string& freedom, const Matrix& directions) {
+  MovingNodes moving;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t node = 1; node <= shaft.places.size(); ++node) {
+    const std::string name =
+        (shaft.name.empty() ? "" : shaft.name + " ") + "node " + std::to_string(node) + ": " + freedom;
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) continue;
+    moving.nodes.push_back(node);
+    rows.push_back(found - names.begin());
+  }
+  moving.motions = directions(rows, Eigen::all);
+  return moving;
+}
+
+/// What is free of a shaft in one direction, and the supports that would hold it.
+struct FreeMotion {
+  std::vector<std::string> words = {};
+  std::vector<std::size_t> supports = {};
+};
+
+FreeMotion free_motion(const MovingNodes& moving, const std::string& along, const std::string& tilting) {
+  constexpr double small = 1e-6;
+  if (moving.motions.size() == 0) return {};
+  Eigen::FullPivLU<Matrix> lu(moving.motions);
+  const Vector sizes = moving.motions.colwise().norm();
+  Eigen::Index most = 0;
+  if (!(sizes.maxCoeff(&most) > small)) return {};
+  lu.setThreshold(small);
+  if (lu.rank() > 1) return {{along, tilting}, {moving.nodes.front(), moving.nodes.back()}};
+  const Vector motion = moving.motions.col(most);
+  if (motion.maxCoeff() - motion.minCoeff() <= small * sizes[most]) return {{along}, {moving.nodes.front()}};
+  Eigen::Index farthest = 0;
+  motion.cwiseAbs().maxCoeff(&farthest);
+  return {{tilting}, {moving.nodes[static_cast<std::size_t>(farthest)]}};
+}
+
+/// The key `node` of a support at these nodes.
+std::string node_text(const SpinningShaft& shaft, const std::vector<std::size_t>& nodes) {
+  const std::string list = joined(nodes, ", ", [&](std::size_t node) {
+    return shaft.name.empty() ? std::to_string(node)
+                              : "\"" + shaft.name + " node " + std::to_string(node) + "\"";
+  });
+  return nodes.size() == 1 ? list : "[" + list + "]";
 }
 
 std::vector<std::string> free_shafts_in_words(const ModelDescription& description, const Matrix& K) {
+  // As in the names of coordinates and in [[support]] holds.
+  constexpr std::array<std::array<const char*, 3>, 4> ways = {{{"x", "to move along x", "to tilt along x"},
+                                                               {"y", "to move along y", "to tilt along y"},
+                                                               {"z", "to move along its axis", ""},
+                                                               {"rz", "to turn about its axis", ""}}};
+  const Matrix directions = free_directions(K);
   std::vector<std::string> sentences;
   for (const SpinningShaft& shaft : description.shafts) {
     std::vector<std::string> words;
-    std::string holds;
-    for (const RigidMotion& motion : motions_of_shafts) {
-      const auto free_with = [&](double inner) {
-        return is_free(K, rigid_motion(description.coordinate_names, shaft.name, motion.freedom, inner));
-      };
-      if (!free_with(1.0) && !free_with(0.0)) continue;
-      words.emplace_back(motion.words);
-      holds += (holds.empty() ? "\"" : ", \"") + std::string(motion.freedom) + "\"";
+    std::map<std::string, std::string> supports;  // nodes, and what they would hold
+    for (const auto& [freedom, along, tilting] : ways) {
+      const FreeMotion free =
+          free_motion(moving_nodes(description.coordinate_names, shaft, freedom, directions), along, tilting);
+      if (free.words.empty()) continue;
+      words.insert(words.end(), free.words.begin(), free.words.end());
+      std::string& holds = supports[node_text(shaft, free.supports)];
+      holds += (holds.empty() ? "\"" : ", \"") + std::string(freedom) + "\"";
     }
     if (words.empty()) continue;
-    const std::string name = shaft.name.empty() ? "shaft" : "shaft " + shaft.name;
-    const std::string node = shaft.name.empty() ? "1" : "\"" + shaft.name + " node 1\"";
-    sentences.push_back("The " + name + " is free " + enumerated(words) +
-                        ": eigenvalues zero. To hold it, add [[support]] node = " + node + ", holds = [" +
-                        holds + "].");
+    const std::string added = joined(supports, " and ", [](const auto& support) {
+      return "[[support]] node = " + support.first + ", holds = [" + support.second + "]";
+    });
+    sentences.push_back("The " + (shaft.name.empty() ? "shaft" : "shaft " + shaft.name) + " is free " +
+                        enumerated(words) + ": eigenvalues zero. To hold it, add " + added + ".");
   }
   return sentences;
 }

@@ -126,6 +126,7 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
   for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
     found.push_back({trace.result.events[i], onset_at(trace.result.events[i], trace.ranges), ""});
     Event& event = found.back().event;
+    if (is_denied(event, trace.ranges)) event.direction = 0;
     event.s = without_rounding(event.s, trace.result.s_ref);
     event.p = without_rounding(event.p, trace.setup.options.from, trace.setup.options.to);
     if (trace.errors != nullptr && std::isfinite(trace.errors->intervals[i].from))
@@ -178,16 +179,38 @@ void print_separations(const TraceSummary& trace) {
     std::printf("  margin  critical speed %sx at %s = %s: %s\n", rounded(found.event.value).c_str(),
                 options.parameter.c_str(), rounded(found.event.p).c_str(), text.c_str());
   }
-  if (is_close) return;
+  const OperatingRange asked = speeds_in_question(operating);
+  const auto [low, high] = std::minmax(options.from, trace.result.reached);
+  const bool covers = (low <= asked.from && asked.to <= high) || (low <= -asked.to && -asked.from <= high);
+  if (!covers)
+    std::printf(
+        "  margin  not known as a whole: critical speeds from %s to %s matter to the operating range %s\n",
+        rounded(asked.from).c_str(), rounded(asked.to).c_str(), ranges_text(operating).c_str());
+  if (is_close || !covers) return;
   std::printf("  margin  all critical speeds keep their distance from the operating range %s (%s)\n",
               ranges_text(operating).c_str(),
               operating.margin ? percent(*operating.margin, 3).c_str() : "API 684");
 }
 
+/// The places where growth begins or ends at infinity, in the order of the ranges.
+std::vector<std::vector<std::string>> onsets_at_infinity(const TraceSummary& trace) {
+  std::vector<std::vector<std::string>> rows;
+  for (const StableRange& range : trace.ranges) {
+    for (const bool begins : {true, false}) {
+      const RangeEnd& end = begins ? range.from : range.to;
+      if (end.cause != "infinity") continue;
+      const bool above = (range.to.p > range.from.p) != begins;
+      rows.push_back({"  infinity", trace.setup.options.parameter + " = " + rounded(end.p, 12), "",
+                      "mode " + std::to_string(end.mode + 1), above ? "unstable above" : "unstable below"});
+    }
+  }
+  return rows;
+}
+
 /// Prints onsets of instability first, then critical speeds, then all others.
 void print_special_points(const TraceSummary& trace, const FrequencyUnit& unit) {
   const std::string& parameter = trace.setup.options.parameter;
-  std::vector<std::vector<std::string>> onsets, critical, others;
+  std::vector<std::vector<std::string>> onsets = onsets_at_infinity(trace), critical, others;
   for (const Found& found : sorted_events(trace)) {
     if (found.event.kind == EventKind::resonance) {
       critical.push_back(critical_speed_row(trace, found, unit));

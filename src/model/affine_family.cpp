@@ -32,9 +32,35 @@ bool are_constant(const std::vector<AffineTerm<Storage>>& terms, const Parameter
 
 // Errors of eigenvalues that come from tables of coefficients: what their interpolants miss between the rows.
 
+/// The argument of a table as a linear function of one parameter: at + slope * parameter.
+struct TableArgument {
+  int parameter = -1;
+  double at = 0.0, slope = 1.0;
+
+  double of(double p) const { return at + slope * p; }
+  double parameter_at(double value) const { return (value - at) / slope; }
+  bool operator==(const TableArgument&) const = default;
+};
+
+/// Empty for an expression that is none.
+std::optional<TableArgument> linear_argument(const Expression& expression) {
+  if (expression.parameters().size() != 1) return std::nullopt;
+  const int parameter = expression.parameters().front();
+  const auto at = [&](double p) {
+    std::vector<Series<double, 2>> values(static_cast<std::size_t>(parameter) + 1);
+    values.back()[0] = p;
+    values.back()[1] = 1.0;
+    return expression.evaluate(std::span<const Series<double, 2>>(values));
+  };
+  const Series<double, 2> zero = at(0.0), one = at(1.0);
+  const bool is_linear = zero[2] == 0.0 && one[2] == 0.0 && zero[1] == one[1] && zero[1] != 0.0;
+  return is_linear ? std::optional(TableArgument{parameter, zero[0], zero[1]}) : std::nullopt;
+}
+
 /// The part of the matrices that comes from one table, at each of its rows.
 struct OneTable {
-  std::vector<double> values;
+  TableArgument argument;
+  std::vector<double> values;       ///< of the argument
   std::vector<SamplePiece> pieces;  ///< one
   std::array<PencilSamples, 3> samples;
   std::unique_ptr<InterpolationErrors> errors = nullptr;
@@ -42,10 +68,11 @@ struct OneTable {
 
 class TableErrors final : public SampleErrors {
  public:
-  TableErrors(int parameter, std::vector<std::unique_ptr<OneTable>> tables)
-      : parameter_(parameter), tables_(std::move(tables)) {
-    for (const auto& table : tables_)
-      values_.insert(values_.end(), table->values.begin(), table->values.end());
+  explicit TableErrors(std::vector<std::unique_ptr<OneTable>> tables)
+      : parameter_(tables.front()->argument.parameter), tables_(std::move(tables)) {
+    for (const auto& table : tables_) {
+      for (const double value : table->values) values_.push_back(table->argument.parameter_at(value));
+    }
     std::sort(values_.begin(), values_.end());
     values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
   }
@@ -59,7 +86,8 @@ class TableErrors final : public SampleErrors {
     const Vector none = Vector::Zero(count);
     SampleBounds sum{none, none, none, none, none};
     for (const auto& table : tables_) {
-      const SampleBounds one = table->errors->between(gap_of(table->values, middle), triples);
+      const std::size_t own_gap = gap_of(table->values, table->argument.of(middle));
+      const SampleBounds one = table->errors->between(own_gap, triples);
       sum.smooth += one.smooth;
       sum.rough += one.rough;
       sum.digits += one.digits;
@@ -71,13 +99,17 @@ class TableErrors final : public SampleErrors {
 
   double shape(double x) const override {
     double largest = 0.0;
-    for (const auto& table : tables_) largest = std::max(largest, table->errors->shape(x));
+    for (const auto& table : tables_)
+      largest = std::max(largest, table->errors->shape(table->argument.of(x)));
     return largest;
   }
 
   double place_of_largest_error(std::size_t, double from, double to) const override {
     const OneTable& first = *tables_.front();
-    return first.errors->place_of_largest_error(gap_of(first.values, 0.5 * (from + to)), from, to);
+    const TableArgument& argument = first.argument;
+    const auto [low, high] = std::minmax(argument.of(from), argument.of(to));
+    const std::size_t own_gap = gap_of(first.values, 0.5 * (low + high));
+    return argument.parameter_at(first.errors->place_of_largest_error(own_gap, low, high));
   }
 
  private:
@@ -86,21 +118,16 @@ class TableErrors final : public SampleErrors {
   std::vector<double> values_;
 };
 
-/// The parameter that an expression is; -1 if it is none.
-int parameter_of(const Expression& expression) {
-  const std::vector<int>& used = expression.parameters();
-  const bool alone = used.size() == 1 && expression == Expression::of_parameter(used.front());
-  return alone ? used.front() : -1;
-}
-
-/// The table with these rows among those that were found; a new one if there is none yet.
+/// The table with these rows over this argument among those that were found; a new one if there is none yet.
 OneTable& table_with(std::vector<std::unique_ptr<OneTable>>& tables,
                      std::vector<std::shared_ptr<const SamplePiece>>& known,
-                     const std::shared_ptr<const SamplePiece>& piece) {
-  const auto found = std::find(known.begin(), known.end(), piece);
-  if (found != known.end()) return *tables[static_cast<std::size_t>(found - known.begin())];
+                     const std::shared_ptr<const SamplePiece>& piece, const TableArgument& argument) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (known[i] == piece && tables[i]->argument == argument) return *tables[i];
+  }
   known.push_back(piece);
   auto table = std::make_unique<OneTable>();
+  table->argument = argument;
   table->values = piece->interpolant.nodes();
   table->pieces = {*piece};
   return *tables.emplace_back(std::move(table));
@@ -115,19 +142,18 @@ void add_samples(PencilSamples& samples, const AffineTerm<Matrix>& term) {
 }
 
 /// The errors of all tables of a family together; null if there are none, or if the argument of a table is
-/// not a parameter itself, the same for all. The bounds of the tables add up.
+/// not a linear function of one parameter, the same for all. The bounds of the tables add up.
 std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pencil, Eigen::Index n) {
   std::vector<std::unique_ptr<OneTable>> tables;
   std::vector<std::shared_ptr<const SamplePiece>> known;
-  int parameter = -1;
   std::size_t coefficient = 0;
   for (const auto* terms : {&pencil.M, &pencil.C, &pencil.K}) {
     for (const AffineTerm<Matrix>& term : *terms) {
       if (!term.table || term.table->is_exact()) continue;
-      const int argument = parameter_of(term.factor);
-      if (argument < 0 || (parameter >= 0 && parameter != argument)) return nullptr;
-      parameter = argument;
-      add_samples(table_with(tables, known, term.table->piece()).samples[coefficient], term);
+      const auto argument = linear_argument(term.factor);
+      if (!argument || (!tables.empty() && tables.front()->argument.parameter != argument->parameter))
+        return nullptr;
+      add_samples(table_with(tables, known, term.table->piece(), *argument).samples[coefficient], term);
     }
     ++coefficient;
   }
@@ -138,10 +164,10 @@ std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pen
       samples.power = 2 - i;
       if (samples.samples.empty()) samples.samples = {Matrix::Zero(n, n)};
     }
-    table->errors =
-        std::make_unique<InterpolationErrors>(parameter, table->values, table->samples, table->pieces);
+    table->errors = std::make_unique<InterpolationErrors>(table->argument.parameter, table->values,
+                                                          table->samples, table->pieces);
   }
-  return std::make_unique<TableErrors>(parameter, std::move(tables));
+  return std::make_unique<TableErrors>(std::move(tables));
 }
 
 }  // namespace

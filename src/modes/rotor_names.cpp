@@ -55,7 +55,10 @@ ShaftMotion motion_of(const SpinningShaft& shaft, const ComplexVector& moved) {
       moved - ComplexVector::Constant(moved.size(), shift) - turn * arm.cast<Complex>();
   const double all = weights.dot(moved.cwiseAbs2());
   if (weights.dot(rest.cwiseAbs2()) > straight * all) return ShaftMotion::bending;
-  return std::abs(shift) >= std::abs(turn) ? ShaftMotion::cylindrical : ShaftMotion::conical;
+  // A shaft that turns about one of its ends is as much of both: a cone.
+  constexpr double beyond_the_ends = 1.01;
+  return std::abs(shift) >= beyond_the_ends * std::abs(turn) ? ShaftMotion::cylindrical
+                                                             : ShaftMotion::conical;
 }
 
 /// 1 or 2 if nearly all motion is along x or y.

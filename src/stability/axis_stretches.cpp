@@ -120,14 +120,16 @@ bool is_at_infinity(const RecordedPath& path, const AxisCut& cut, const PathPosi
 }
 
 /// The place between two samples, one growing and one not, at which the dense output changes from growing to
-/// not growing, by bisection.
+/// not growing, by bisection. Beside a stored point at which modes are on the axis within rounding, all
+/// growth beyond rounding counts, also what the tolerance would hide.
 AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const AxisSample& second,
                     const Judging& judging) {
   constexpr int halvings = 60;  // more than the 53 bits of a double: the loop ends before
   const AxisSample& growing = first.unstable.empty() ? second : first;
   const AxisSample& other = first.unstable.empty() ? first : second;
   const auto grows = [&](const AxisSample& s) {
-    return other.all_decay() ? s.margin < 0.0 : !s.unstable.empty();
+    if (s.critical < 0) return false;
+    return -s.margin > (other.all_decay() ? 0.0 : path.rounding_at(s.at, s.critical));
   };
   double inside = growing.at.in_steps();
   double outside = other.at.in_steps();

@@ -32,7 +32,7 @@ Members<4> archived(const ChordStep*);
 Members<2> archived(const BoundaryFunction*);
 Members<2> archived(const ArmEnd*);
 Members<7> archived(const FollowedCurve*);
-Members<4> archived(const CurveStart*);
+Members<5> archived(const CurveStart*);
 
 namespace {
 
@@ -148,7 +148,7 @@ class BoundarySearch {
         note({"changes of stability that could not be followed", start.failure});
         fail("a change of stability could not be followed");
       }
-      if (!start.remark.empty()) note({start.remark, window_.text(seeds_[starts_.size()].place)});
+      if (!start.remark.empty()) note({start.remark, window_.text(start.remarked)});
       starts_.push_back(std::move(start.point));
     }
   }

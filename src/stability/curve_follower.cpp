@@ -336,6 +336,7 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
   // Damped modes do not meet; the curve would go on where their mean is no mode.
   if (start.point->functions.row(0).cwiseAbs().maxCoeff() <= flat * size) return start;
   start.point.reset();
+  start.remarked = there.place;
   start.remark =
       "onset of flutter without damping, beside which modes are damped; as damping vanishes, the "
       "boundary may have another limit";

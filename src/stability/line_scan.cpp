@@ -19,6 +19,8 @@ constexpr int samples_per_step = 16;
 constexpr int halvings = 40;
 /// Largest instability, relative to max(|s|, reference), at a located sign change that counts as a zero.
 constexpr double largest_jump = 1e-3;
+/// An eigenvalue beyond this multiple of the reference that changes its sign passes through infinity.
+constexpr double at_infinity = 1e6;
 /// A divergence seed closer to a fold than this, in the scaled window, is the fold itself.
 constexpr double beside_fold = 1e-4;
 /// Newton's method for a coalescence begins at this distance from it, in the scaled window, where the shapes
@@ -157,7 +159,14 @@ class Scanner {
                                     [&](double t) { return !(instability_at(t) * behind > 0.0); });
     const Sample there = sample({at.step, place.first_without});
     const Complex s = there.s[mode];
-    if (!passes_zero(options_, s, scan_.s_ref)) return;
+    if (!passes_zero(options_, s, scan_.s_ref)) {
+      if (std::abs(s) > at_infinity * scan_.s_ref)
+        scan_.findings.push_back(
+            {"growth that begins or ends at infinity, where a mass or damping vanishes: "
+             "no curve is followed there",
+             window_.text(there.place)});
+      return;
+    }
     // The damping ratio of a real eigenvalue is 1 or -1, never the one asked for.
     if (s.imag() == 0.0 && options_.damping_ratio) return;
     scan_.seeds.push_back(

@@ -33,7 +33,7 @@ RangeEnd range_end(const RecordedPath& path, Stability kind, Side side, const Ax
         end.p = path.p[nearest.at.step + (side == Side::begin ? 1 : 0)];
     }
   } else if (kind == Stability::stable) {
-    end.margin = nearest.margin;
+    end.margin = nearest.margin > nearest.doubt ? nearest.margin : 0.0;
     end.mode = nearest.critical;
   }
   return end;
@@ -77,7 +77,19 @@ bool bounds_growth(const Event& event, const std::vector<StableRange>& ranges) {
 
 }  // namespace
 
+bool is_denied(const Event& event, const std::vector<StableRange>& ranges) {
+  const bool of_modes = event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
+                        event.kind == EventKind::collision;
+  if (event.direction == 0 || !of_modes) return false;
+  return std::ranges::any_of(ranges, [&](const StableRange& range) {
+    if (range.kind != Stability::stable || (range.from.p != event.p && range.to.p != event.p)) return false;
+    const double other = range.from.p == event.p ? range.to.p : range.from.p;
+    return (other > event.p) == (event.direction > 0);
+  });
+}
+
 Onset onset_at(const Event& event, const std::vector<StableRange>& ranges) {
+  if (is_denied(event, ranges)) return Onset::none;
   switch (event.kind) {
     case EventKind::flutter:
     case EventKind::divergence:

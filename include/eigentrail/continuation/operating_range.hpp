@@ -45,8 +45,12 @@ struct Separation {
 };
 
 /// The separation from the range to which most is wanting; empty without ranges. `speed`: where the mode with
-/// the eigenvalue `s` is in resonance, in the unit of the ranges.
+/// the eigenvalue `s` is in resonance, in the unit of the ranges, in either sense of rotation.
 std::optional<Separation> separation(const OperatingRanges& operating, double speed, Complex s);
+
+/// The speeds between which a critical speed may be too close to an operating range, whatever its
+/// amplification. There must be ranges.
+OperatingRange speeds_in_question(const OperatingRanges& operating);
 
 /// "3000 to 3600, 8000 to 9000", and "0.15" or "API 684": as the files have them.
 std::string ranges_text(const OperatingRanges& operating);

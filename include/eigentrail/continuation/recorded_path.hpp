@@ -59,8 +59,10 @@ struct RecordedPath {
   /// its member with Im s >= 0.
   ComplexVector eigenvalues_at(const Position& position) const;
 
-  /// The same as they are shown: zero where they, or their real parts, are below their errors by rounding at
-  /// the place, or on either side of it.
+  /// The error of an eigenvalue by rounding at a place, 1/s; between two nodes the smaller one of theirs.
+  double rounding_at(const Position& position, int mode) const;
+
+  /// The eigenvalues as they are shown: zero where they, or their real parts, are below that error.
   ComplexVector shown_at(const Position& position) const;
 };
 

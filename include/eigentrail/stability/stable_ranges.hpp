@@ -33,6 +33,10 @@ struct StableRange {
 std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
                                        const EigenvalueAccuracy& accuracy);
 
+/// Whether the direction of an event of modes tells growth on a side where a stable range begins or ends
+/// there: among several zeros the sign of one that rounding hides is not known.
+bool is_denied(const Event& event, const std::vector<StableRange>& ranges);
+
 /// What begins, or ends, at a special point.
 enum class Onset {
   none,

@@ -127,6 +127,9 @@ class TrackScan {
                         : on_step_.rounding(member, at.t);
     };
     if (!criterion.asks_for_extrema() && std::abs(value) <= rounding()) {
+      // Where real eigenvalues have met at zero and left it as a pair, their sign does not count any more:
+      // the collision says what ended.
+      if (!history.is_pair() && std::abs(s.imag()) > rounding()) history = {};
       history.skip();
       return;
     }

@@ -16,11 +16,20 @@ double ratio_of_decrement(double decrement) {
   return decrement / std::hypot(2.0 * std::numbers::pi, decrement);
 }
 
+double constant_term(double value) {
+  return value;
+}
+double constant_term(const RealSeries& value) {
+  return value[0];
+}
+
 /// The criterion at mu = re + im j. Scalar: double, or a power series.
 template <class Scalar>
 Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, Chart chart,
                 const Scalar& excitation) {
   using std::sqrt;
+  // A rotor that turns the other way is excited as often.
+  const Scalar exciting = constant_term(excitation) < 0.0 ? -excitation : excitation;
   const Scalar square = re * re + im * im;
   switch (criterion.kind) {
     case EventKind::damping_ratio:
@@ -28,8 +37,8 @@ Scalar evaluate(const Criterion& criterion, const Scalar& re, const Scalar& im, 
     case EventKind::log_decrement:
       return re + ratio_of_decrement(criterion.value) * sqrt(square);
     case EventKind::resonance:
-      return chart == Chart::finite ? im - criterion.value * excitation
-                                    : -im - criterion.value * (excitation * square);
+      return chart == Chart::finite ? im - criterion.value * exciting
+                                    : -im - criterion.value * (exciting * square);
     case EventKind::band_edge:
       return chart == Chart::finite ? im - criterion.value : -im - criterion.value * square;
     case EventKind::extremum:

@@ -32,16 +32,31 @@ std::vector<double> read_numbers(TableReader& table, const EventRequest& request
   return values;
 }
 
-/// The traced parameter as the excitation frequency: its SI value in rad/s. Fails if its unit is not one of a
-/// frequency. A parameter without a unit is in rad/s.
-Expression traced_frequency(const Scene& scene, const std::string& traced, const TableReader& table) {
-  const Expression frequency = Expression::parse(traced, scene.parameters.names());
-  const std::string fault = dimension_fault(frequency, scene.parameters.list(), "rad/s");
-  if (!fault.empty()) {
-    table.fail("harmonics", "of what frequency? '" + traced + "' is in " + scene.parameters.at(traced).unit +
-                                "; give `excitation`, in rad/s, as an expression of the parameters");
+/// The different speeds of the shafts.
+std::vector<Expression> speeds_of_shafts(const Scene& scene, std::set<int>& used) {
+  std::vector<Expression> speeds;
+  for (const Table* shaft : tables(scene, "shaft")) {
+    TableReader table(scene, *shaft, "[[shaft]]", used);
+    const Expression speed = table.has("speed") ? table.expression("speed", "rad/s") : Expression(0.0);
+    if (std::find(speeds.begin(), speeds.end(), speed) == speeds.end()) speeds.push_back(speed);
   }
-  return frequency;
+  return speeds;
+}
+
+/// The frequency of the excitation where none is given: the traced parameter, if it is a frequency, else the
+/// speed of the shafts. A parameter without a unit is in rad/s where there are none. Fails where no frequency
+/// is meant for certain.
+Expression usual_excitation(const Scene& scene, const std::string& traced, const TableReader& table,
+                            std::set<int>& used) {
+  const Expression parameter = Expression::parse(traced, scene.parameters.names());
+  const std::string& unit = scene.parameters.at(traced).unit;
+  const bool may_be = dimension_fault(parameter, scene.parameters.list(), "rad/s").empty();
+  const std::vector<Expression> speeds = speeds_of_shafts(scene, used);
+  if (may_be && (!unit.empty() || speeds.empty())) return parameter;
+  if (speeds.size() == 1 && !speeds.front().is_constant()) return speeds.front();
+  table.fail("harmonics", "of what frequency? '" + traced + "' " +
+                              (unit.empty() ? "has no unit" : "is in " + unit) +
+                              "; give `excitation`, in rad/s, as an expression of the parameters");
 }
 
 /// Replaces texts with units ("3000 rpm") by numbers in the unit of the traced parameter, in lists too.
@@ -129,7 +144,7 @@ EventOptions read_event_options(const Scene& scene, const std::string& traced, s
     options.excitation = table.expression("excitation", "rad/s");
   } else if (is_excited && scene.parameters.index(traced)) {
     // A traced parameter that does not exist is reported where the other options are read.
-    options.excitation = traced_frequency(scene, traced, table);
+    options.excitation = usual_excitation(scene, traced, table, used);
   }
   options.operating = read_operating_ranges(table, is_excited);
   if (table.has("extrema")) options.extrema = table.flag("extrema");

@@ -157,7 +157,12 @@ class MeetingLanding {
   /// Shortens the step to one predicted meeting. `distance` is set to its position, and `looks` counts the
   /// points computed.
   Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks) {
-    Approach approach = follow(expected, true, distance, looks);
+    const auto go_there = [&](bool trusting) {
+      const Approach approach = follow(expected, trusting, distance, looks);
+      if (std::abs(distance - step_.h) <= at_point_) distance = step_.h;  // it is the end of the step
+      return approach;
+    };
+    Approach approach = go_there(true);
     if (approach == Approach::nothing) return Cut::none;
     // At one end of every step, at least, the eigenvalues of a block must be distinct, so that they can be
     // identified. If the step begins at a meeting it ends half way to the next one.
@@ -167,7 +172,7 @@ class MeetingLanding {
     bool landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
     if (landed && !between && !meeting_at_end(expected)) {
       cut_.reset();
-      approach = follow(expected, false, distance, looks);
+      approach = go_there(false);
       landed = approach == Approach::reached && (distance == step_.h || attempt(distance));
     }
     if (landed) return Cut::done;

@@ -7,6 +7,7 @@
 #include "continuation/events/exceptional_point.hpp"
 #include "continuation/events/static_points.hpp"
 #include "continuation/tracks/members.hpp"
+#include "eigentrail/modes/block_parts.hpp"
 
 namespace eigentrail {
 namespace {
@@ -48,11 +49,23 @@ int direction_off_axis(const Event& event, int cycle) {
   return square > 0.0 ? 1 : square < 0.0 ? -1 : 0;
 }
 
+/// How far from a meeting of two its Puiseux coefficient tells how they part: where the square of half their
+/// distance is not yet more of a parabola than of a line.
+double reach_of_puiseux(const Track& track, const Meeting& meeting, double range) {
+  const ComplexVector square =
+      meeting.members.size() == 2
+          ? discriminant_series(part_series(track.series.Lambda, roots_of(track, meeting.members)), 1)
+          : ComplexVector();
+  if (square.size() < 3 || square[2] == 0.0) return range;
+  return std::min(range, std::norm(meeting.puiseux) / std::abs(square[2]));
+}
+
 /// Whether a collision tells which way its eigenvalues part: by the Puiseux coefficient they leave their
-/// error on the range. Those of rigid-body motions, which are known to a root of rounding, do not.
+/// error within its reach. Those of rigid-body motions, which are known to a root of rounding, do not.
 bool parts_visibly(const EventSearch& search, const Track& track, const Meeting& meeting) {
-  const double farthest = std::abs(meeting.puiseux) * std::pow(search.frame().coordinate_range(),
-                                                               1.0 / static_cast<double>(meeting.cycle));
+  const double reach = reach_of_puiseux(track, meeting, search.frame().coordinate_range());
+  const double farthest =
+      std::abs(meeting.puiseux) * std::pow(reach, 1.0 / static_cast<double>(meeting.cycle));
   const Vector errors = rounding_of_roots(track, search.thresholds().rounding);
   return std::all_of(meeting.members.begin(), meeting.members.end(),
                      [&](int i) { return farthest > errors[i]; });

@@ -45,10 +45,21 @@ std::optional<Separation> separation(const OperatingRanges& operating, double sp
   std::optional<Separation> worst;
   const auto missing = [](const Separation& of) { return of.wanted - of.distance; };
   for (const OperatingRange& range : operating.ranges) {
-    const Separation here = separation_from(range, operating.margin, speed, amplification_factor(s));
+    const Separation here =
+        separation_from(range, operating.margin, std::abs(speed), amplification_factor(s));
     if (!worst || missing(here) > missing(*worst)) worst = here;
   }
   return worst;
+}
+
+OperatingRange speeds_in_question(const OperatingRanges& operating) {
+  const double sharpest = std::numeric_limits<double>::infinity();
+  OperatingRange all{sharpest, 0.0};
+  for (const OperatingRange& range : operating.ranges) {
+    all.from = std::min(all.from, range.from * (1.0 - operating.margin.value_or(api_margin(sharpest, true))));
+    all.to = std::max(all.to, range.to * (1.0 + operating.margin.value_or(api_margin(sharpest, false))));
+  }
+  return all;
 }
 
 std::string ranges_text(const OperatingRanges& operating) {

@@ -40,6 +40,7 @@ Vector function_errors(const HermiteInterpolant& dense, const ComplexVector& fun
 }  // namespace
 
 Complex shown(Complex s, double rounding) {
+  if (!std::isfinite(std::abs(s))) return s;
   if (std::abs(s) <= rounding) return 0.0;
   return std::abs(s.real()) <= rounding ? Complex(0.0, s.imag()) : s;
 }

@@ -71,14 +71,16 @@ ComplexVector RecordedPath::eigenvalues_at(const Position& position) const {
                           eigenvalues.row(left + 1).transpose(), position.t);
 }
 
-ComplexVector RecordedPath::shown_at(const Position& position) const {
-  ComplexVector s = eigenvalues_at(position);
+double RecordedPath::rounding_at(const Position& position, int mode) const {
   const std::size_t left = position.t == 1.0 ? position.step + 1 : position.step;
   const std::size_t right = position.t == 0.0 ? position.step : position.step + 1;
-  for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
-    const int number = static_cast<int>(mode);
-    s[mode] = shown(s[mode], std::fmax(rounding_at(left, number), rounding_at(right, number)));
-  }
+  return std::fmin(rounding_at(left, mode), rounding_at(right, mode));  // not NaN
+}
+
+ComplexVector RecordedPath::shown_at(const Position& position) const {
+  ComplexVector s = eigenvalues_at(position);
+  for (Eigen::Index mode = 0; mode < s.size(); ++mode)
+    s[mode] = shown(s[mode], rounding_at(position, static_cast<int>(mode)));
   return s;
 }
 

@@ -253,8 +253,9 @@ void TraceLoop::follow() {
     }
     if (state_.steps.towards_pole >= enough_towards_pole) {
       stop(TraceStatus::step_too_small, "the equilibrium runs to infinity near " + here +
-                                            ", as that of an unbalanced rotor without damping does at a "
-                                            "critical speed; begin another trace behind it");
+                                            ", as on a line of equilibria without end, or of an unbalanced "
+                                            "rotor without damping at a critical speed; begin another trace "
+                                            "behind it");
       return;
     }
     // The factors are no longer needed: the next point is predicted from the series.

@@ -154,7 +154,9 @@ ModeState state_of(const Track& track, Eigen::Index i, int mode, const ComplexMa
                    double rounding, double along, double speed) {
   ModeState state;
   state.mode = mode;
-  const Complex root = track.roots[i];
+  // Infinite is what 1/s cannot be told from zero.
+  const bool is_infinite = track.pair.chart == Chart::reciprocal && std::abs(track.roots[i]) <= rounding;
+  const Complex root = is_infinite ? Complex(0.0) : track.roots[i];
   const Complex derivative = slope_of(track, i), slope = derivative / speed;
   if (along > 0.0 && std::isfinite(std::abs(derivative))) rounding += along * std::abs(derivative);
   state.s = chart_value(root, track.pair.chart);

@@ -11,7 +11,7 @@ function excitationAt({ parameter, frequency }, p) {
       if (j !== i) weight *= (p - parameter[j]) / (parameter[i] - parameter[j]);
     sum += weight * frequency[i];
   }
-  return sum;
+  return Math.abs(sum);  // a rotor that turns the other way is excited as often
 }
 
 /** All critical speeds of the files: { file, mode, harmonic, place, parameter, s }, by files, harmonics and speeds. */

@@ -22,13 +22,14 @@ def excitation(loci):
     found = _read(loci, 0)
     if found is not None:
         known = found["excitation"]
-        return Excitation(known["parameter"], known["frequency"], known["harmonics"]) if known else None
+        return Excitation(known["parameter"], np.abs(known["frequency"]), known["harmonics"]) if known else None
     parameter = loci[loci.attrs["parameter"]]
     factor = ANGULAR.get(parameter.attrs.get("units"))
     if factor is None:
         return None
-    ends = np.array([float(parameter.min()), float(parameter.max())])
-    return Excitation(ends, factor * ends, [])
+    low, high = float(parameter.min()), float(parameter.max())
+    places = np.unique([low, min(max(low, 0.0), high), high])
+    return Excitation(places, factor * np.abs(places), [])  # a rotor that turns the other way is excited as often
 
 
 def geometry(loci, node):
