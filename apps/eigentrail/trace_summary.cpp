@@ -200,7 +200,7 @@ std::vector<std::vector<std::string>> onsets_at_infinity(const TraceSummary& tra
       const RangeEnd& end = begins ? range.from : range.to;
       if (end.cause != "infinity") continue;
       const bool above = (range.to.p > range.from.p) != begins;
-      rows.push_back({"  infinity", trace.setup.options.parameter + " = " + rounded(end.p, 12), "",
+      rows.push_back({"  infinity", "near " + trace.setup.options.parameter + " = " + rounded(end.p, 6), "",
                       "mode " + std::to_string(end.mode + 1), above ? "unstable above" : "unstable below"});
     }
   }

@@ -30,7 +30,7 @@ constexpr double seen_well = 3e-3;
 constexpr double near_veering = 2.0;
 /// In steps: what the series show nearer to the left end than this was found on the step before.
 constexpr double at_left_end = 1e-3;
-/// In steps: a position this little beyond the right end counts as the end: rounding of the position.
+/// In steps: a position this close to the right end counts as the end: rounding of the position.
 constexpr double beyond = 1e-9;
 /// An iterate outside the step means that the meeting is not on it, if the last move was shorter than this
 /// (in steps) or there were more looks than `few_looks`. Otherwise the prediction was too inaccurate to tell.
@@ -159,7 +159,7 @@ class MeetingLanding {
   Cut cut_at(const ExpectedMeeting& expected, double& distance, int& looks) {
     const auto go_there = [&](bool trusting) {
       const Approach approach = follow(expected, trusting, distance, looks);
-      if (std::abs(distance - step_.h) <= at_point_) distance = step_.h;  // it is the end of the step
+      if (std::abs(distance - step_.h) <= beyond * std::abs(step_.h)) distance = step_.h;
       return approach;
     };
     Approach approach = go_there(true);
