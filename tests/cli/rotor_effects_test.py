@@ -62,7 +62,7 @@ class RotorEffects(ProgramTest):
 
     def test_a_shaft_without_bearings_floats(self):
         self.write("rotor.toml", re.sub(r"bearing = .*\n", "", ROTOR).replace("film = 1", 'film = "speed"'))
-        self.assertIn("The shaft is free to move along x and to move along y", self.run_program("explain", "rotor.toml").stdout)
+        self.assertIn("The shaft is free to move along x, to tilt along x, to move along y and to tilt along y", self.run_program("explain", "rotor.toml").stdout)
 
 
 if __name__ == "__main__":
