@@ -83,84 +83,54 @@ std::string followed(const TraceSetup& setup, const Sizes& sizes) {
          exact_text(options.tolerance) + " of its magnitude, everywhere on the range.";
 }
 
-/// The motions against which no force acts, up to rounding: columns, or none.
-Matrix free_directions(const Matrix& K) {
-  constexpr double rounding = 1e-12;
-  Eigen::FullPivLU<Matrix> lu(K);
-  lu.setThreshold(rounding);
-  return lu.dimensionOfKernel() > 0 ? Matrix(lu.kernel()) : Matrix(K.rows(), 0);
-}
-
-/// The nodes of a shaft, from 1, that move in some direction, and how: a row each.
-struct MovingNodes {
-  std::vector<std::size_t> nodes;
-  Matrix motions;
-};
-
-MovingNodes moving_nodes(const std::vector<std::string>& names, const SpinningShaft& shaft,
-                         const std::string& freedom, const Matrix& directions) {
-  MovingNodes moving;
-  std::vector<Eigen::Index> rows;
-  for (std::size_t node = 1; node <= shaft.places.size(); ++node) {
-    const std::string name =
-        (shaft.name.empty() ? "" : shaft.name + " ") + "node " + std::to_string(node) + ": " + freedom;
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) continue;
-    moving.nodes.push_back(node);
-    rows.push_back(found - names.begin());
-  }
-  moving.motions = directions(rows, Eigen::all);
-  return moving;
-}
-
-/// What is free of a shaft in one direction, and the supports that would hold it.
+/// What is free of a shaft in the direction of one freedom, and the nodes whose support would hold it.
 struct FreeMotion {
   std::vector<std::string> words = {};
-  std::vector<std::size_t> supports = {};
+  std::vector<std::string> supports = {};
 };
 
-FreeMotion free_motion(const MovingNodes& moving, const std::string& along, const std::string& tilting) {
+/// `free`: the motions against which no force acts. Freedoms as in the names of coordinates.
+FreeMotion free_motion(const std::vector<std::string>& names, const SpinningShaft& shaft,
+                       const std::string& freedom, const Matrix& free, const std::string& along) {
+  std::vector<std::string> nodes;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t k = 1; k <= shaft.places.size(); ++k) {
+    const std::string node = (shaft.name.empty() ? "" : shaft.name + " ") + "node " + std::to_string(k);
+    const auto found = std::ranges::find(names, node + ": " + freedom);
+    if (found == names.end()) continue;
+    nodes.push_back(shaft.name.empty() ? std::to_string(k) : '"' + node + '"');
+    rows.push_back(found - names.begin());
+  }
   constexpr double small = 1e-6;
-  if (moving.motions.size() == 0) return {};
-  Eigen::FullPivLU<Matrix> lu(moving.motions);
-  const Vector sizes = moving.motions.colwise().norm();
-  Eigen::Index most = 0;
-  if (!(sizes.maxCoeff(&most) > small)) return {};
-  lu.setThreshold(small);
-  if (lu.rank() > 1) return {{along, tilting}, {moving.nodes.front(), moving.nodes.back()}};
-  const Vector motion = moving.motions.col(most);
-  if (motion.maxCoeff() - motion.minCoeff() <= small * sizes[most]) return {{along}, {moving.nodes.front()}};
-  Eigen::Index farthest = 0;
+  const Matrix moved = free(rows, Eigen::all);
+  Eigen::Index most = 0, farthest = 0;
+  if (moved.size() == 0 || !(moved.colwise().norm().maxCoeff(&most) > small)) return {};
+  const std::string tilting = "to tilt along " + freedom;
+  if (Eigen::FullPivLU<Matrix>(moved).setThreshold(small).rank() > 1)
+    return {{along, tilting}, {nodes.front(), nodes.back()}};
+  const Vector motion = moved.col(most);
+  const bool is_straight = motion.maxCoeff() - motion.minCoeff() <= small * motion.norm();
   motion.cwiseAbs().maxCoeff(&farthest);
-  return {{tilting}, {moving.nodes[static_cast<std::size_t>(farthest)]}};
-}
-
-/// The key `node` of a support at these nodes.
-std::string node_text(const SpinningShaft& shaft, const std::vector<std::size_t>& nodes) {
-  const std::string list = joined(nodes, ", ", [&](std::size_t node) {
-    return shaft.name.empty() ? std::to_string(node)
-                              : "\"" + shaft.name + " node " + std::to_string(node) + "\"";
-  });
-  return nodes.size() == 1 ? list : "[" + list + "]";
+  return {{is_straight ? along : tilting}, {nodes[static_cast<std::size_t>(farthest)]}};
 }
 
 std::vector<std::string> free_shafts_in_words(const ModelDescription& description, const Matrix& K) {
-  // As in the names of coordinates and in [[support]] holds.
-  constexpr std::array<std::array<const char*, 3>, 4> ways = {{{"x", "to move along x", "to tilt along x"},
-                                                               {"y", "to move along y", "to tilt along y"},
-                                                               {"z", "to move along its axis", ""},
-                                                               {"rz", "to turn about its axis", ""}}};
-  const Matrix directions = free_directions(K);
+  constexpr std::array<std::array<const char*, 2>, 4> ways = {{{"x", "to move along x"},
+                                                               {"y", "to move along y"},
+                                                               {"z", "to move along its axis"},
+                                                               {"rz", "to turn about its axis"}}};
+  constexpr double rounding = 1e-12;
+  const Matrix free = Eigen::FullPivLU<Matrix>(K).setThreshold(rounding).kernel();  // zero if there are none
   std::vector<std::string> sentences;
   for (const SpinningShaft& shaft : description.shafts) {
     std::vector<std::string> words;
     std::map<std::string, std::string> supports;  // nodes, and what they would hold
-    for (const auto& [freedom, along, tilting] : ways) {
-      const FreeMotion free =
-          free_motion(moving_nodes(description.coordinate_names, shaft, freedom, directions), along, tilting);
-      if (free.words.empty()) continue;
-      words.insert(words.end(), free.words.begin(), free.words.end());
-      std::string& holds = supports[node_text(shaft, free.supports)];
+    for (const auto& [freedom, along] : ways) {
+      const FreeMotion found = free_motion(description.coordinate_names, shaft, freedom, free, along);
+      if (found.words.empty()) continue;
+      words.insert(words.end(), found.words.begin(), found.words.end());
+      const std::string nodes = joined(found.supports, ", ");
+      std::string& holds = supports[found.supports.size() == 1 ? nodes : "[" + nodes + "]"];
       holds += (holds.empty() ? "\"" : ", \"") + std::string(freedom) + "\"";
     }
     if (words.empty()) continue;

@@ -126,7 +126,6 @@ std::vector<Found> sorted_events(const TraceSummary& trace) {
   for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
     found.push_back({trace.result.events[i], onset_at(trace.result.events[i], trace.ranges), ""});
     Event& event = found.back().event;
-    if (is_denied(event, trace.ranges)) event.direction = 0;
     event.s = without_rounding(event.s, trace.result.s_ref);
     event.p = without_rounding(event.p, trace.setup.options.from, trace.setup.options.to);
     if (trace.errors != nullptr && std::isfinite(trace.errors->intervals[i].from))

@@ -18,12 +18,6 @@ constexpr double same_axis_place = 1e-9;
 /// meet and at folds the trace stores a point, so that these events are at the nearer end of their step if it
 /// is within this share of the parameter range (MeetingThresholds::at_point, with a margin).
 constexpr double on_node = 1e-8;
-/// An eigenvalue larger than this multiple of the reference counts as passing through infinity.
-constexpr double infinite_size = 1e9;
-/// A mode that begins or ends and is larger than this multiple of the reference comes from infinity or runs
-/// there: typical eigenvalues are a thousand references, and modes that run to infinity end a hundred times
-/// above the largest one at the start.
-constexpr double large_size = 1e4;
 
 /// The stability at a single sample; empty if the errors leave it open.
 std::optional<Stability> verdict(const AxisSample& sample) {
@@ -110,13 +104,10 @@ std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> 
   return result;
 }
 
-/// Whether a mode that grows at a cut is infinite there: it is too large for anything else, or it is large
-/// and does not exist on the other side, where the trace has ended it or not yet begun it.
-bool is_at_infinity(const RecordedPath& path, const AxisCut& cut, const PathPosition& other_side,
-                    const Judging& judging) {
-  const double size = std::abs(cut.s) / judging.accuracy.reference;
-  const bool exists = std::isfinite(path.eigenvalues_at(other_side)[cut.modes.front()].real());
-  return size > infinite_size || (!exists && size > large_size);
+/// Whether the mode that changes its sign at a cut is infinite there: 1/s is followed.
+bool is_at_infinity(const RecordedPath& path, const AxisCut& cut) {
+  const DenseBlock* block = path.block_of(cut.at.step, cut.modes.front());
+  return block != nullptr && block->chart == Chart::reciprocal;
 }
 
 /// The place between two samples, one growing and one not, at which the dense output changes from growing to
@@ -146,7 +137,7 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   cut.p = path.parameter_at(cut.at);
   cut.modes = {nearest.critical};
   cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
-  cut.cause = is_at_infinity(path, cut, path.position_at(outside), judging) ? "infinity" : "sign change";
+  cut.cause = is_at_infinity(path, cut) ? "infinity" : "sign change";
   return cut;
 }
 

@@ -4,23 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bisection.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "eigentrail/core/series.hpp"
 
 namespace eigentrail {
 namespace {
 
-/// Of the traces of lines. Instabilities below this multiple of max(|s|, reference) have no sign: beside a
-/// coalescence of undamped modes their signs are errors of the dense output.
+/// Of the traces of lines.
 constexpr double scan_tolerance = 1e-6;
 constexpr int steps_per_line = 16;  ///< least number of steps of a trace
 constexpr int samples_per_step = 16;
-constexpr int halvings = 40;
-/// Largest instability, relative to max(|s|, reference), at a located sign change that counts as a zero.
+/// Largest instability, relative to max(|s|, reference), behind a walk that counts as a zero.
 constexpr double largest_jump = 1e-3;
-/// An eigenvalue beyond this multiple of the reference that changes its sign passes through infinity.
-constexpr double at_infinity = 1e6;
 /// A divergence seed closer to a fold than this, in the scaled window, is the fold itself.
 constexpr double beside_fold = 1e-4;
 /// Newton's method for a coalescence begins at this distance from it, in the scaled window, where the shapes
@@ -90,6 +85,7 @@ class Scanner {
     options.tolerance = scan_tolerance;
     options.certify = false;
     options.events = {.veerings = false, .other_paths = false};  // and extrema are found by the scan itself
+    if (options_.damping_ratio) options.events.wanted = {{EventKind::damping_ratio, *options_.damping_ratio}};
     options.first_step.reset();
     options.max_step = std::abs(options.to - options.from) / steps_per_line;
     nodes_.clear();
@@ -110,7 +106,6 @@ class Scanner {
     path_ = recorder.path();
     before_.reset();
     last_.reset();
-    signs_.assign(static_cast<std::size_t>(path_.eigenvalues.cols()), 0.0);
     for (std::size_t step = 0; step < path_.steps.size(); ++step) {
       for (int k = step == 0 ? 0 : 1; k <= samples_per_step; ++k)
         look_at({step, static_cast<double>(k) / samples_per_step});
@@ -129,48 +124,23 @@ class Scanner {
   void look_at(const PathPosition& at) {
     Sample here = sample(at);
     for (Eigen::Index mode = 0; mode < here.s.size(); ++mode) {
-      const Complex s = here.s[mode];
-      double& sign = signs_[static_cast<std::size_t>(mode)];
-      if (!std::isfinite(s.real())) {
-        sign = 0.0;
-        continue;
-      }
-      if (has_sign(s)) {
-        const double sign_here = instability(options_, s) > 0.0 ? 1.0 : -1.0;
-        if (sign * sign_here < 0.0) add_seed(at, mode);
-        sign = sign_here;
-      }
+      if (last_ && passes_infinity(at.step, mode, last_->s[mode], here.s[mode]))
+        scan_.findings.push_back(
+            {"growth that begins or ends at infinity, where a mass or damping vanishes: "
+             "no curve is followed there",
+             window_.text(here.place)});
       if (!before_) continue;
       add_extremum(mode, instability(options_, before_->s[mode]), instability(options_, last_->s[mode]),
-                   instability(options_, s));
+                   instability(options_, here.s[mode]));
     }
     before_ = std::move(last_);
     last_ = std::move(here);
   }
 
-  /// Adds the place between the sample at `at` and the one before it, at which the instability changes its
-  /// sign.
-  void add_seed(const PathPosition& at, Eigen::Index mode) {
-    const auto instability_at = [&](double t) {
-      return instability(options_, path_.eigenvalues_at({at.step, t})[mode]);
-    };
-    const double behind = instability_at(at.t);
-    const Bisected place = bisected(at.t - 1.0 / samples_per_step, at.t, halvings,
-                                    [&](double t) { return !(instability_at(t) * behind > 0.0); });
-    const Sample there = sample({at.step, place.first_without});
-    const Complex s = there.s[mode];
-    if (!passes_zero(options_, s, scan_.s_ref)) {
-      if (std::abs(s) > at_infinity * scan_.s_ref)
-        scan_.findings.push_back(
-            {"growth that begins or ends at infinity, where a mass or damping vanishes: "
-             "no curve is followed there",
-             window_.text(there.place)});
-      return;
-    }
-    // The damping ratio of a real eigenvalue is 1 or -1, never the one asked for.
-    if (s.imag() == 0.0 && options_.damping_ratio) return;
-    scan_.seeds.push_back(
-        {there.place, Place::Unit(line_.along), kind_of(options_, s), s, there.equilibrium});
+  /// Whether Re s changes its sign between two samples while 1/s is what is followed.
+  bool passes_infinity(std::size_t step, Eigen::Index mode, Complex before, Complex here) const {
+    const DenseBlock* block = path_.block_of(step, static_cast<int>(mode));
+    return block != nullptr && block->chart == Chart::reciprocal && before.real() * here.real() < 0.0;
   }
 
   void add_extremum(Eigen::Index mode, double before, double here, double behind) {
@@ -183,8 +153,24 @@ class Scanner {
     scan_.extrema.push_back({last_->place, s, last_->equilibrium, sign});
   }
 
-  /// Seeds where modes without damping coalesce, or a stiffness is lost. Notes folds of the equilibrium,
-  /// whose curves are not followed; divergence seeds at a fold are removed.
+  /// Whether the instability of a mode changes its sign at an event.
+  bool is_change(const Event& event) const {
+    if (event.direction == 0) return false;
+    if (options_.damping_ratio) return event.kind == EventKind::damping_ratio;
+    return event.kind == EventKind::flutter || event.kind == EventKind::divergence;
+  }
+
+  /// The equilibrium at an event, by the series of the point before it.
+  EquilibriumGuess equilibrium_at(const Event& event) const {
+    for (const PathPosition& at : path_.positions(event.p)) {
+      if (static_cast<int>(at.step) + 1 >= event.node) return sample(at).equilibrium;
+    }
+    const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];
+    return {node.x.col(0), node.lambda.col(0), true};
+  }
+
+  /// Seeds where modes pass the axis, where modes without damping coalesce, or a stiffness is lost. Notes
+  /// folds of the equilibrium, whose curves are not followed; divergence seeds at a fold are removed.
   void report(const TraceResult& result) {
     for (const Event& event : result.events) {
       const Place place = line_.at(window_.scaled(line_.along, event.p));
@@ -194,25 +180,20 @@ class Scanner {
           return seed.kind == BoundaryKind::divergence && (seed.place - place).norm() < beside_fold;
         });
       }
+      const Place along = Place::Unit(line_.along);
+      const auto add = [&](const Place& from, BoundaryKind kind) {
+        scan_.seeds.push_back({from, along, kind, event.s, equilibrium_at(event)});
+      };
+      if (is_change(event)) add(place, kind_of(options_, event.s));
       // Where nothing is damped, modes oscillate on one side of these: no growth changes its sign.
       const bool may_be = event.kind == EventKind::collision || event.kind == EventKind::branch_point;
       if (options_.damping_ratio || event.direction == 0 || !may_be) continue;
-      const Path& node = nodes_[std::min(static_cast<std::size_t>(event.node), nodes_.size() - 1)];
-      const Place direction = Place::Unit(line_.along);
-      if (event.s == 0.0) {
-        scan_.seeds.push_back(
-            {place, direction, BoundaryKind::divergence, 0.0, {node.x.col(0), node.lambda.col(0), true}});
-        continue;
-      }
-      const Place beside =
-          place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * direction;
-      scan_.seeds.push_back(
-          {beside, direction, BoundaryKind::coalescence, event.s, {node.x.col(0), node.lambda.col(0), true}});
+      if (event.s == 0.0)
+        add(place, BoundaryKind::divergence);
+      else
+        add(place + (place[line_.along] < 0.5 ? beside_coalescence : -beside_coalescence) * along,
+            BoundaryKind::coalescence);
     }
-  }
-
-  bool has_sign(Complex s) const {
-    return std::abs(instability(options_, s)) > scan_tolerance * std::max(std::abs(s), scan_.s_ref);
   }
 
   const Window& window_;
@@ -222,8 +203,6 @@ class Scanner {
   RecordedPath path_;
   std::vector<Path> nodes_;  ///< series of the equilibrium at the points of the trace
   std::optional<Sample> before_, last_;
-  /// Per mode: the last sign of its instability; 0: none yet, or the mode does not exist.
-  std::vector<double> signs_;
 };
 
 // Lengths are in the scaled window.

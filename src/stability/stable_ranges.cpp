@@ -50,19 +50,12 @@ StableRange join(const RecordedPath& path, const AxisStretch* first, const AxisS
     range.largest_at = range.from.p;
     return range;
   }
-  range.least_margin = std::min(range.from.margin, range.to.margin);
-  range.largest_margin = -INFINITY;
-  const auto include = [&range](double margin, double p) {
-    range.least_margin = std::min(range.least_margin, std::max(margin, 0.0));
-    if (margin <= range.largest_margin) return;
-    range.largest_margin = margin;
-    range.largest_at = p;
-  };
-  include(range.from.margin, range.from.p);
+  range.begin_margins();
   for (const AxisStretch* stretch = first; stretch <= last; ++stretch) {
-    for (const AxisSample& sample : stretch->samples) include(sample.margin, path.parameter_at(sample.at));
+    for (const AxisSample& sample : stretch->samples)
+      range.include(std::max(sample.margin, 0.0), path.parameter_at(sample.at));
   }
-  include(range.to.margin, range.to.p);
+  range.include(range.to.margin, range.to.p);
   return range;
 }
 
@@ -77,19 +70,7 @@ bool bounds_growth(const Event& event, const std::vector<StableRange>& ranges) {
 
 }  // namespace
 
-bool is_denied(const Event& event, const std::vector<StableRange>& ranges) {
-  const bool of_modes = event.kind == EventKind::flutter || event.kind == EventKind::divergence ||
-                        event.kind == EventKind::collision;
-  if (event.direction == 0 || !of_modes) return false;
-  return std::ranges::any_of(ranges, [&](const StableRange& range) {
-    if (range.kind != Stability::stable || (range.from.p != event.p && range.to.p != event.p)) return false;
-    const double other = range.from.p == event.p ? range.to.p : range.from.p;
-    return (other > event.p) == (event.direction > 0);
-  });
-}
-
 Onset onset_at(const Event& event, const std::vector<StableRange>& ranges) {
-  if (is_denied(event, ranges)) return Onset::none;
   switch (event.kind) {
     case EventKind::flutter:
     case EventKind::divergence:

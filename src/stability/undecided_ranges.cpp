@@ -129,28 +129,19 @@ std::vector<StableRange> with_undecided(const std::vector<StableRange>& ranges, 
              before(range.from.p, other.to.p);
     });
     if (marginal) continue;
-    range.least_margin = std::min(range.from.margin, range.to.margin);
-    range.largest_margin = std::max(range.from.margin, range.to.margin);
-    range.largest_at = range.from.margin >= range.to.margin ? range.from.p : range.to.p;
+    range.begin_margins();
+    range.include(range.to.margin, range.to.p);
     open.push_back(range);
   }
 
   // A part of a stable range with its margins.
   const auto with_margins = [&](StableRange part) {
-    part.least_margin = std::min(part.from.margin, part.to.margin);
-    part.largest_margin = -INFINITY;
-    const auto include = [&part](double margin, double p) {
-      part.least_margin = std::min(part.least_margin, margin);
-      if (margin <= part.largest_margin) return;
-      part.largest_margin = margin;
-      part.largest_at = p;
-    };
-    include(part.from.margin, part.from.p);
+    part.begin_margins();
     for (const RangeSample& sample : samples) {
       const double p = sampler.parameter(sample.place);
-      if (before(part.from.p, p) && before(p, part.to.p)) include(sample.margin, p);
+      if (before(part.from.p, p) && before(p, part.to.p)) part.include(sample.margin, p);
     }
-    include(part.to.margin, part.to.p);
+    part.include(part.to.margin, part.to.p);
     return part;
   };
   std::vector<StableRange> result = open;

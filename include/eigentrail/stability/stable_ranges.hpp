@@ -1,6 +1,7 @@
 // The ranges of the traced parameter on which no mode grows.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -26,16 +27,24 @@ struct StableRange {
   double largest_at = 0.0;      ///< parameter value with the largest margin
   /// Whether it holds for the whole model; otherwise for the followed modes, and others may grow.
   bool whole = false;
+
+  /// Sets the margins to that of the begin; those of other places are included one by one, in order.
+  void begin_margins() {
+    least_margin = largest_margin = from.margin;
+    largest_at = from.p;
+  }
+  void include(double margin, double p) {
+    least_margin = std::min(least_margin, margin);
+    if (margin <= largest_margin) return;
+    largest_margin = margin;
+    largest_at = p;
+  }
 };
 
 /// Stable and marginal ranges from the first point of the path to the last. `events`: all events of the
 /// trace, in any order.
 std::vector<StableRange> stable_ranges(const RecordedPath& path, const std::vector<Event>& events,
                                        const EigenvalueAccuracy& accuracy);
-
-/// Whether the direction of an event of modes tells growth on a side where a stable range begins or ends
-/// there: among several zeros the sign of one that rounding hides is not known.
-bool is_denied(const Event& event, const std::vector<StableRange>& ranges);
 
 /// What begins, or ends, at a special point.
 enum class Onset {
