@@ -109,9 +109,9 @@ FreeMotion free_motion(const std::vector<std::string>& names, const SpinningShaf
   if (Eigen::FullPivLU<Matrix>(moved).setThreshold(small).rank() > 1)
     return {{along, tilting}, {nodes.front(), nodes.back()}};
   const Vector motion = moved.col(most);
-  const bool is_straight = motion.maxCoeff() - motion.minCoeff() <= small * motion.norm();
+  if (motion.maxCoeff() - motion.minCoeff() <= small * motion.norm()) return {{along}, {nodes.front()}};
   motion.cwiseAbs().maxCoeff(&farthest);
-  return {{is_straight ? along : tilting}, {nodes[static_cast<std::size_t>(farthest)]}};
+  return {{tilting}, {nodes[static_cast<std::size_t>(farthest)]}};
 }
 
 std::vector<std::string> free_shafts_in_words(const ModelDescription& description, const Matrix& K) {

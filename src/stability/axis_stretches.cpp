@@ -18,6 +18,10 @@ constexpr double same_axis_place = 1e-9;
 /// meet and at folds the trace stores a point, so that these events are at the nearer end of their step if it
 /// is within this share of the parameter range (MeetingThresholds::at_point, with a margin).
 constexpr double on_node = 1e-8;
+/// A mode that begins or ends and is larger than this multiple of the reference comes from infinity or runs
+/// there: typical eigenvalues are a thousand references, and modes that run to infinity end a hundred times
+/// above the largest one at the start.
+constexpr double large_size = 1e4;
 
 /// The stability at a single sample; empty if the errors leave it open.
 std::optional<Stability> verdict(const AxisSample& sample) {
@@ -104,10 +108,14 @@ std::vector<AxisCut> united_cuts(const RecordedPath& path, std::vector<AxisCut> 
   return result;
 }
 
-/// Whether the mode that changes its sign at a cut is infinite there: 1/s is followed.
-bool is_at_infinity(const RecordedPath& path, const AxisCut& cut) {
+/// Whether the mode that grows at a cut is infinite there: 1/s is followed, or the mode is large and does not
+/// exist on the other side, where the trace has ended it or not yet begun it.
+bool is_at_infinity(const RecordedPath& path, const AxisCut& cut, const PathPosition& other_side,
+                    const Judging& judging) {
   const DenseBlock* block = path.block_of(cut.at.step, cut.modes.front());
-  return block != nullptr && block->chart == Chart::reciprocal;
+  if (block != nullptr && block->chart == Chart::reciprocal) return true;
+  const bool exists = std::isfinite(path.eigenvalues_at(other_side)[cut.modes.front()].real());
+  return !exists && std::abs(cut.s) > large_size * judging.accuracy.reference;
 }
 
 /// The place between two samples, one growing and one not, at which the dense output changes from growing to
@@ -137,7 +145,7 @@ AxisCut sign_change(const RecordedPath& path, const AxisSample& first, const Axi
   cut.p = path.parameter_at(cut.at);
   cut.modes = {nearest.critical};
   cut.s = path.eigenvalues_at(nearest.at)[nearest.critical];
-  cut.cause = is_at_infinity(path, cut) ? "infinity" : "sign change";
+  cut.cause = is_at_infinity(path, cut, path.position_at(outside), judging) ? "infinity" : "sign change";
   return cut;
 }
 
