@@ -96,9 +96,15 @@ constexpr int places_per_step = 16;
 std::optional<double> first_of(Onset onset, const std::vector<Event>& events,
                                const std::vector<StableRange>& ranges, double from) {
   std::optional<double> first;
+  const auto take = [&](double p) {
+    if (!first || std::abs(p - from) < std::abs(*first - from)) first = p;
+  };
   for (const Event& event : events) {
-    const bool is_nearer = !first || std::abs(event.p - from) < std::abs(*first - from);
-    if (is_nearer && onset_at(event, ranges) == onset) first = event.p;
+    if (onset_at(event, ranges) == onset) take(event.p);
+  }
+  for (const StableRange& range : ranges) {
+    for (const RangeEnd& end : {range.from, range.to})
+      if (onset == Onset::divergence && end.cause == "infinity") take(end.p);
   }
   return first;
 }

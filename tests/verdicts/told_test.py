@@ -1,6 +1,7 @@
 """What the program says where eigenvalues are zero, infinite or at the end of a range, and of critical speeds, on shafts and
 families whose answer is known."""
 
+import csv
 import math
 import re
 import unittest
@@ -161,6 +162,9 @@ class Families(VerdictTest):
         text = self.trace_and_read(THROUGH_INFINITY)
         self.assertRegex(text, r"onset of instability\n +infinity +near p = 1 +mode 2 +unstable above")
         self.assertIn("inf + 0j", self.run_well("eval", "loci.h5", "--at", "1"))
+        self.run_well("sweep", "scene.toml", "--vary", "a=0.8,1,1.25", "-o", "runs")
+        rows = list(csv.DictReader((self.folder / "runs" / "index.csv").read_text().splitlines()))
+        self.assert_within(np.array([float(row["divergence"]) for row in rows]), np.array([1.25, 1.0, 0.8]), 1e-9)
         text = self.run_well("boundary", "scene.toml", "--second", "a", "--second-from", "0.6", "--second-to", "1.4", "-o", "b.h5")
         self.assertIn("no boundary was followed in the window", text)
         self.assertIn("growth that begins or ends at infinity", text)

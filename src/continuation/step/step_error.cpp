@@ -115,6 +115,19 @@ double worst_ratio(const PathProblem& problem, double tolerance, const Step& ste
   return worst;
 }
 
+/// Whether all eigenvalues of a track are zero within rounding, at both ends of a step and between them: then
+/// no error of theirs is known.
+bool is_zero(const PathProblem& problem, const Step& step, std::size_t i, const HermiteInterpolant& dense) {
+  double rounding = INFINITY, largest = block_roots(dense(0.5)).cwiseAbs().maxCoeff();
+  for (const Track* track : {&step.left->tracks[i], &step.right.tracks[i]}) {
+    largest = std::max(largest, track->roots.cwiseAbs().maxCoeff());
+    if (track->pair.chart != Chart::finite || largest > problem.s_ref) return false;
+    const double entries = problem.thresholds.rounding.entries;
+    rounding = std::min(rounding, eigenvalue_rounding(track->pair, track->roots, entries).minCoeff());
+  }
+  return largest <= rounding;
+}
+
 Vector estimated_errors(const HermiteInterpolant& dense, const Track& track) {
   return (dense.error_without_last() - function_rounding(track.pair.Lambda)).cwiseMax(0.0);
 }
@@ -165,6 +178,7 @@ double track_error(const PathProblem& problem, double tolerance, double rounding
                    std::size_t i) {
   const Track& track = step.left->tracks[i];
   const HermiteInterpolant dense = functions_on_step(*step.left, step.right, i, step.h);
+  if (is_zero(problem, step, i, dense)) return 0.0;
   return worst_ratio(problem, tolerance, step, i, dense, estimated_errors(dense, track),
                      rounding * sensitivity_to_rounding(track));
 }
