@@ -73,6 +73,16 @@ class Rotors(VerdictTest):
         self.assertAlmostEqual(slowest / rigid, 1.0, delta=5e-3)
         self.run_well("verify", "loci.h5")
 
+    def test_a_free_shaft_that_outer_damping_brakes_is_stable(self):
+        # Four zeros throughout; M, D and K are symmetric, D and K hold nothing but them.
+        free = OVERHUNG.split("[[bearing]]")[0].replace("density = 7810", "density = 7810\nalpha = 0.5")
+        file = self.trace(free.replace("modes = 6", "modes = 8"))
+        (kind, begin, end), = self.ranges(file)
+        self.assertEqual((kind, begin, end), ("stable", 0.0, 6000.0))
+        with self.open(file) as loci:
+            self.assertLess(loci["speed"].size, 100)
+            self.assertEqual(loci["growing_unfollowed"][()].max(), 0)
+
     def test_a_rotor_is_excited_by_its_own_speed_in_either_sense(self):
         speeds = self.critical_speeds(PINNED)
         self.assertEqual(len(speeds), 2)

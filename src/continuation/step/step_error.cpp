@@ -8,6 +8,7 @@
 
 #include "continuation/step/shared_basis.hpp"
 #include "eigentrail/modes/invariants.hpp"
+#include "eigentrail/modes/regroup.hpp"
 
 namespace eigentrail {
 namespace {

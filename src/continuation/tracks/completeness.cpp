@@ -106,6 +106,7 @@ bool checksum_holds(const PathNode& node, const PathProblem& problem) {
 std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& spectrum, double s_ref,
                                         const RoundingThresholds& thresholds) {
   std::vector<Complex> tracked;
+  std::vector<double> unknown;  // by rounding
   std::vector<int> parts;
   for (const Track& track : node.tracks) {
     const Vector rounding = rounding_of_roots(track, thresholds);
@@ -116,6 +117,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
       const bool is_other = track.pair.is_real && is_lower(track.roots[i], track.pair.chart);
       if (std::isfinite(s.real()) && !(is_other && std::abs(track.roots[i].imag()) > rounding[i])) {
         tracked.push_back(s);
+        unknown.push_back(track.pair.chart == Chart::finite ? rounding[i] : 0.0);
         parts.push_back(track.pair.part);
       }
     }
@@ -128,7 +130,7 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
       const Complex s = spectrum.modes[j].s;
       const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          std::min(distance / std::max(std::abs(s), s_ref), unrelated);
+          std::min(std::max(distance - unknown[i], 0.0) / std::max(std::abs(s), s_ref), unrelated);
     }
   }
   std::vector<bool> taken(spectrum.modes.size(), false);
