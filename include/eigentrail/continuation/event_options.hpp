@@ -30,9 +30,9 @@ struct EventOptions {
   std::vector<double> values(EventKind kind) const;
 };
 
-/// Reads the [events] table; defaults if the scene has none. The excitation frequency is the traced parameter
-/// unless the table gives another one. The parameters that the table names are added to `used`. Throws
-/// InputError with the place of a fault.
+/// Reads the [events] table; defaults if the scene has none. The excitation frequency is the traced
+/// parameter, or the speed of the shafts where that has no unit, unless the table gives another one. The
+/// parameters that the table names are added to `used`. Throws InputError with the place of a fault.
 EventOptions read_event_options(const Scene& scene, const std::string& traced, std::set<int>& used);
 
 }  // namespace eigentrail

@@ -52,7 +52,8 @@ Expression usual_excitation(const Scene& scene, const std::string& traced, const
   const std::string& unit = scene.parameters.at(traced).unit;
   const bool may_be = dimension_fault(parameter, scene.parameters.list(), "rad/s").empty();
   const std::vector<Expression> speeds = speeds_of_shafts(scene, used);
-  if (may_be && (!unit.empty() || speeds.empty())) return parameter;
+  const bool turns = std::find(speeds.begin(), speeds.end(), parameter) != speeds.end();
+  if (may_be && (!unit.empty() || speeds.empty() || turns)) return parameter;
   if (speeds.size() == 1 && !speeds.front().is_constant()) return speeds.front();
   table.fail("harmonics", "of what frequency? '" + traced + "' " +
                               (unit.empty() ? "has no unit" : "is in " + unit) +

@@ -117,7 +117,8 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
       const bool is_other = track.pair.is_real && is_lower(track.roots[i], track.pair.chart);
       if (std::isfinite(s.real()) && !(is_other && std::abs(track.roots[i].imag()) > rounding[i])) {
         tracked.push_back(s);
-        unknown.push_back(track.pair.chart == Chart::finite ? rounding[i] : 0.0);
+        const double error = track.pair.chart == Chart::finite ? rounding[i] : rounding[i] * std::norm(s);
+        unknown.push_back(std::isfinite(error) ? error : 0.0);
         parts.push_back(track.pair.part);
       }
     }
@@ -129,8 +130,9 @@ std::vector<StartingMode> missing_modes(const PathNode& node, const Spectrum& sp
       if (spectrum.modes[j].part != parts[i] || spectrum.modes[j].copy > 0) continue;
       const Complex s = spectrum.modes[j].s;
       const double distance = std::min(std::abs(tracked[i] - s), std::abs(std::conj(tracked[i]) - s));
+      // Within rounding it is the same, and the nearest one rather than another.
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          std::min(std::max(distance - unknown[i], 0.0) / std::max(std::abs(s), s_ref), unrelated);
+          std::min({distance / std::max(std::abs(s), s_ref), same_root * distance / unknown[i], unrelated});
     }
   }
   std::vector<bool> taken(spectrum.modes.size(), false);
