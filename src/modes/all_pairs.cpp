@@ -186,7 +186,7 @@ std::shared_ptr<const AllPairs> correct_all(const PencilAtPoint& pencil,
   std::optional<Matrix> leading_inverse;
   std::optional<ModalBasis> basis;
   if (!newton(pencil, reference, options, pairs, leading_inverse, basis, counts)) return nullptr;
-  remove_remnants(reference, options.tolerance, pairs.Lambda);
+  remove_remnants(starts.front().chart, reference, options.tolerance, pairs.Lambda);
   basis = ModalBasis::from(pencil, pairs, leading_inverse);
   ++counts.modal_bases;
   if (!basis) return nullptr;

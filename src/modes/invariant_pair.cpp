@@ -185,9 +185,10 @@ PairStatus newton(const PencilAtPoint& pencil, double reference, const Corrector
 
 }  // namespace
 
-void remove_remnants(double reference, double tolerance, ComplexMatrix& Lambda) {
+void remove_remnants(Chart chart, double reference, double tolerance, ComplexMatrix& Lambda) {
+  const double least = (chart == Chart::finite ? tolerance * tolerance : tolerance) * reference;
   for (Complex& entry : Lambda.reshaped()) {
-    if (std::abs(entry) < tolerance * tolerance * reference) entry = 0.0;
+    if (std::abs(entry) < least) entry = 0.0;
   }
 }
 
@@ -206,7 +207,7 @@ InvariantPair correct_pair(const PencilAtPoint& pencil, const InvariantPair& sta
   }
   pair.status = newton(pencil, reference, options, pair, counts);
   if (pair.status != PairStatus::converged) return pair;
-  remove_remnants(reference, options.tolerance, pair.Lambda);
+  remove_remnants(pair.chart, reference, options.tolerance, pair.Lambda);
   settle_accuracy(pencil, pencil.residual(pair.Z, pair.Lambda).norm(),
                   pair.factors->sensitivity(pencil.terms(pair.Z, pair.Lambda)), reference, pair);
   counts.solves += static_cast<std::uint64_t>(pair.size() * pair.size());

@@ -179,6 +179,13 @@ class Families(VerdictTest):
         self.assertIn("no boundary was followed in the window", text)
         self.assertIn("growth that begins or ends at infinity", text)
 
+    def test_a_range_that_ends_where_the_mass_is_singular(self):
+        file = self.trace(FAMILY.format(0, 1, "", "M = [[[1, 0], [0, 1]], [[-1, 0], [0, 0]]]\nC = [[[1, 0], [0, 0.1]]]\n"
+                                        "K = [[[0.1, 0.03], [0.03, 4]]]"))
+        with self.open(file) as loci:
+            self.assertEqual(np.isinf(loci["eigenvalue"][-1]).sum(), 1)
+        self.run_well("verify", file)
+
     def test_where_damping_vanishes_the_onset_is_at_its_place(self):
         self.write("scene.toml", ZIEGLER.replace("a = 0.55", "a = 1"))
         text = self.run_well("boundary", "scene.toml", "--second", "c", "--second-from", "0", "--second-to", "0.5", "-o", "b.h5")

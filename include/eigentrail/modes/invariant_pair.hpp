@@ -165,8 +165,9 @@ struct InvariantPair {
 void normalize_pair(ComplexMatrix& Z, ComplexMatrix& Lambda, ComplexMatrix& W, double reference);
 
 /// Sets entries to zero that are what Newton's method leaves of one: each correction is about the square of
-/// the one before, and the last one was not larger than the tolerance.
-void remove_remnants(double reference, double tolerance, ComplexMatrix& Lambda);
+/// the one before, and the last one was not larger than the tolerance. Of 1/s what is below the tolerance
+/// itself: such an s is farther beyond what counts as infinite than any number tells.
+void remove_remnants(Chart chart, double reference, double tolerance, ComplexMatrix& Lambda);
 
 /// Refines a pair by the chord-Newton method. `reference` > 0 is the magnitude below which an eigenvalue (1/s
 /// in the reciprocal chart) counts as zero. Of `start` only Z, Lambda, chart and is_real are used.
