@@ -63,8 +63,7 @@ Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const Path
                         accuracy.reference);
   for (Eigen::Index i = 0; i < doubts.size(); ++i) {
     const int mode = block.modes[static_cast<std::size_t>(i)];
-    doubts[i] = exact ? path.rounding_at(at.step + (at.t == 1.0 ? 1 : 0), mode)
-                      : accuracy.tolerance * scale_of(s[mode], accuracy);
+    doubts[i] = exact ? path.rounding_at(at, mode) : accuracy.tolerance * scale_of(s[mode], accuracy);
   }
   return doubts;
 }

@@ -29,9 +29,9 @@ struct RecordedPath {
   std::vector<int> growing_unfollowed = {};
 
   std::size_t n_nodes() const { return p.size(); }
-  /// The place of a node.
+  /// The place of a node: where a step begins, of the last one where the last step ends.
   PathPosition at_node(std::size_t node) const {
-    return node == 0 ? PathPosition{} : PathPosition{node - 1, 1.0};
+    return node > 0 && node == steps.size() ? PathPosition{node - 1, 1.0} : PathPosition{node, 0.0};
   }
   /// The error of an eigenvalue at a node by rounding, 1/s; zero if it is not known.
   double rounding_at(std::size_t node, int mode) const;

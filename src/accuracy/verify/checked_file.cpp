@@ -36,11 +36,6 @@ Event event_of(const LociFile& loci, const LociEvent& stored) {
 
 }  // namespace
 
-PathPosition CheckedFile::node(std::size_t number) const {
-  const bool is_last = number > 0 && number == loci.steps.size();
-  return is_last ? PathPosition{number - 1, 1.0} : PathPosition{number, 0.0};
-}
-
 bool CheckedFile::is_meeting(std::size_t number) const {
   constexpr double near = 1e-6;       // share of the steps on both sides
   constexpr double near_turn = 1e-5;  // share of the range, where the stiffness is singular

@@ -28,8 +28,6 @@ struct CheckedFile {
 
   bool has_steps() const { return !loci.steps.empty(); }
   double scale_of(Complex s) const { return std::max(std::abs(s), accuracy.reference); }
-  /// The place of a stored point.
-  PathPosition node(std::size_t number) const;
   /// Whether eigenvalues meet or the path turns at a stored point: each eigenvalue is known to a root of
   /// rounding only.
   bool is_meeting(std::size_t number) const;

@@ -171,7 +171,7 @@ void compare_labels_with(const LociFile& traced, const CheckedFile& file, Compar
     const double p = file.loci.p[node];
     const std::vector<PathPosition> places = traced.positions(p);
     if (places.size() != 1) continue;  // the path turns back, or the new trace ends before
-    const ComplexVector stored = file.loci.eigenvalues_at(file.node(node));
+    const ComplexVector stored = file.loci.eigenvalues_at(file.loci.at_node(node));
     const ComplexVector s = traced.eigenvalues_at(places.front());
     const Vector errors =
         eigenvalue_errors(traced, places.front(), s, file.accuracy.tolerance, file.accuracy);

@@ -65,7 +65,7 @@ Comparison compare_points(const CheckedFile& file, const VerifyOptions& options,
     if (!std::binary_search(nodes.begin(), nodes.end(), node)) return;
     const double p = loci.p[node];
     const auto row = static_cast<Eigen::Index>(node);
-    const PathPoint point = solver.point_at(file.node(node));
+    const PathPoint point = solver.point_at(file.loci.at_node(node));
     const bool solved = point.status == PointStatus::computed;
     if (!solved ||
         !is_same_vector(Vector(loci.equilibrium.row(row).transpose()), point.equilibrium.x, sizes)) {

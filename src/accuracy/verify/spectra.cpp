@@ -171,7 +171,7 @@ Comparison compare_spectra(const CheckedFile& file, const VerifyOptions& options
   }
   bool points_fit = true;
   const std::vector<std::size_t> nodes = file.plain_nodes(samples);
-  for (const std::size_t node : nodes) points_fit = comparison.compare(file.node(node)) && points_fit;
+  for (const std::size_t node : nodes) points_fit = comparison.compare(file.loci.at_node(node)) && points_fit;
   Comparison result =
       std::move(comparison)
           .result(places + std::to_string(nodes.size()) + " of " + count_of(loci.n_nodes(), "stored point"));

@@ -96,7 +96,7 @@ void compare_counts(const CheckedFile& file, Comparison& result) {
   std::vector<Census> counts;
   std::size_t compared = 0;
   for (std::size_t node = 0; node < loci.n_nodes(); ++node) {
-    counts.push_back(census_at(file, file.node(node), vanishing_real_part, permanence));
+    counts.push_back(census_at(file, file.loci.at_node(node), vanishing_real_part, permanence));
     const Census& here = counts.back();
     const Census& before = counts[node > 0 ? node - 1 : 0];
     if (node > 0 && goes_on(file, node - 1) && here.all == before.all && here.real != before.real &&

@@ -119,14 +119,14 @@ double worst_ratio(const PathProblem& problem, double tolerance, const Step& ste
 /// Whether all eigenvalues of a track are zero within rounding, at both ends of a step and between them: then
 /// no error of theirs is known.
 bool is_zero(const PathProblem& problem, const Step& step, std::size_t i, const HermiteInterpolant& dense) {
-  double rounding = INFINITY, largest = block_roots(dense(0.5)).cwiseAbs().maxCoeff();
+  double rounding = problem.s_ref, largest = 0.0;
   for (const Track* track : {&step.left->tracks[i], &step.right.tracks[i]}) {
     largest = std::max(largest, track->roots.cwiseAbs().maxCoeff());
     if (track->pair.chart != Chart::finite || largest > problem.s_ref) return false;
     const double entries = problem.thresholds.rounding.entries;
     rounding = std::min(rounding, eigenvalue_rounding(track->pair, track->roots, entries).minCoeff());
   }
-  return largest <= rounding;
+  return largest <= rounding && block_roots(dense(0.5)).cwiseAbs().maxCoeff() <= rounding;
 }
 
 Vector estimated_errors(const HermiteInterpolant& dense, const Track& track) {
