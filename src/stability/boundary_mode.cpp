@@ -25,6 +25,18 @@ ReducedPencil bordered(const ReducedPencil& pencil, const Matrix& border) {
   return {{Matrix::Zero(n, n)}, {border}, pencil.K};
 }
 
+/// A real block of a complex pair by the real and imaginary part of its vector. In the basis in which series
+/// lead to it, the norm of Lambda grows where that vector becomes real, and rounding with it.
+InvariantPair by_parts_of_vector(InvariantPair block) {
+  if (!block.is_real || block.size() != 2) return block;
+  const Eigen::EigenSolver<Matrix> solver(Matrix(block.Lambda.real()));
+  const Complex s = solver.eigenvalues()[0];
+  if (s.imag() == 0.0) return block;
+  block.Z = (block.Z * solver.eigenvectors().col(0)).normalized();
+  block.Lambda = ComplexMatrix::Constant(1, 1, s);
+  return with_conjugate(block);
+}
+
 /// Reference of the relative error of the followed eigenvalue: that of the window, or the norm of K for
 /// divergence, where the eigenvalue is g.
 double reference(const Window& window, const BoundaryFunction& function, const ReducedPencil& pencil) {
@@ -86,8 +98,8 @@ Situation compute_situation(const Window& window, const BoundaryFunction& functi
     result.pencil = bordered(result.point.pencil, -b * c.transpose() / (b.norm() * c.norm()));
   }
   const StageTimer timer(counts.modes_seconds);
-  result.pair = correct_pair(PencilAtPoint(result.pencil), start, reference(window, function, result.pencil),
-                             problem.corrector, counts.modes);
+  result.pair = correct_pair(PencilAtPoint(result.pencil), by_parts_of_vector(std::move(start)),
+                             reference(window, function, result.pencil), problem.corrector, counts.modes);
   if (result.pair.status != PairStatus::converged) {
     result.status = PointStatus::mode_lost;
     result.message = "the corrector did not converge to the mode";
