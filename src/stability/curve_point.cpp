@@ -19,6 +19,8 @@ constexpr double stagnated = 1e-10;  ///< corrections below this that no longer 
 constexpr double longest = 0.5;      ///< Newton's method fails if it moves farther than this
 /// An instability below this multiple of max(|s|, reference) counts as zero.
 constexpr double vanishing = 1e-9;
+/// Largest sum of two eigenvalues, relative to their size, that are opposite.
+constexpr double opposite = 1e-3;
 
 /// Sets the eigenvalue of the block with Im s >= 0 and its normalized shape.
 void read_mode(const Situation& situation, CurvePoint& point) {
@@ -46,15 +48,15 @@ void count_others(const Window& window, const BoundaryFunction& function, const 
   const auto distance = [&](std::size_t mode) { return std::abs(spectrum.modes[mode].s - point.s); };
   std::sort(nearest.begin(), nearest.end(),
             [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-  // What is lost without damping is zero twice, and known to the root of rounding only.
+  // What is lost without damping is zero twice, of which rounding may make s and -s.
+  const auto s = [&](std::size_t i) { return spectrum.modes[nearest[i]].s; };
   const bool is_double = function.kind == BoundaryKind::divergence && nearest.size() > 1 &&
-                         distance(nearest[1]) <= std::sqrt(vanishing) * window.reference();
+                         std::abs(s(0) + s(1)) <= opposite * std::abs(s(1));
   const std::size_t own = function.kind == BoundaryKind::coalescence || is_double ? 2 : 1;
   point.number = static_cast<int>(nearest[0]) + 1;
   point.gap = nearest.size() > own ? distance(nearest[own]) : INFINITY;
   for (std::size_t i = own; i < nearest.size(); ++i) {
-    const Complex s = spectrum.modes[nearest[i]].s;
-    if (function.instability(s) > vanishing * std::max(std::abs(s), window.reference())) ++point.others;
+    if (function.instability(s(i)) > vanishing * std::max(std::abs(s(i)), window.reference())) ++point.others;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eigentrail/continuation/eigenvalue_error.hpp"
 #include "eigentrail/continuation/recorded_path.hpp"
 #include "eigentrail/core/series.hpp"
 
@@ -118,7 +119,7 @@ class Scanner {
     const double h = at.t * path_.steps[at.step].length;
     return {line_.at(window_.scaled(line_.along, path_.parameter_at(at))),
             {evaluate_series(left.x, h), evaluate_series(left.lambda, h), true},
-            path_.eigenvalues_at(at)};
+            path_.shown_at(at)};
   }
 
   void look_at(const PathPosition& at) {
@@ -279,6 +280,9 @@ std::optional<Probe> probe(const Window& window, const BoundaryOptions& options,
   situation.pair = correct_pair(PencilAtPoint(situation.pencil), start, window.reference(), problem.corrector,
                                 counts.modes);
   if (situation.pair.status != PairStatus::converged) return std::nullopt;
+  // The real part of a mode on the axis is rounding, and has no sign.
+  const ComplexVector own = pair_eigenvalues(situation.pair);
+  const double rounding = eigenvalue_rounding(situation.pair, own, RoundingThresholds().entries)[0];
   std::array<Series<Complex, 2>, 3> s;
   std::array<Series<double, 2>, 3> w;
   const std::array<Place, 3> directions{Place::Unit(0), Place::Unit(1), Place::Ones()};
@@ -287,7 +291,8 @@ std::optional<Probe> probe(const Window& window, const BoundaryOptions& options,
     places << place, directions[i];
     const auto series = differentiate_situation(window, situation, BoundaryFunction(), places, 2, counts);
     if (!series) return std::nullopt;
-    for (int k = 0; k <= 2; ++k) s[i][k] = series->functions(0, k);
+    s[i][0] = shown(own[0], rounding);
+    for (int k = 1; k <= 2; ++k) s[i][k] = series->functions(0, k);
     w[i] = instability_series(options, s[i]);
   }
   return Probe{place, as_guess(situation, place).equilibrium, situation.point.basis.T[0], quadratic(s),
@@ -313,11 +318,14 @@ Place uphill(const Quadratic<double>& w, double sign, double radius) {
   return length > radius ? Place(radius / length * step) : step;
 }
 
-std::optional<BoundarySeed> seed_at(const Window& window, const BoundaryOptions& options,
-                                    const Probe& there) {
+/// The seed at a probe; `beside`: the eigenvalue on the other side of the boundary. Without damping a real
+/// one becomes a pair on the imaginary axis there.
+std::optional<BoundarySeed> seed_at(const Window& window, const BoundaryOptions& options, const Probe& there,
+                                    Complex beside) {
   const Complex s = there.s.value;
   if (!passes_zero(options, s, window.reference())) return std::nullopt;
-  return BoundarySeed{there.place, Place::Zero(), kind_of(options, s), s, there.equilibrium, true};
+  const BoundaryKind kind = kind_of(options, s.imag() == 0.0 ? s : beside);
+  return BoundarySeed{there.place, Place::Zero(), kind, s, there.equilibrium, true};
 }
 
 /// A seed between two probes with instabilities of opposite sign. The interval is divided by the secant or in
@@ -331,7 +339,8 @@ std::optional<BoundarySeed> seed_between(const Window& window, const BoundaryOpt
     if (!middle) break;
     (middle->w.value * a.w.value > 0.0 ? a : b) = *middle;
   }
-  return seed_at(window, options, std::abs(a.w.value) < std::abs(b.w.value) ? a : b);
+  if (std::abs(a.w.value) < std::abs(b.w.value)) std::swap(a, b);
+  return seed_at(window, options, b, a.s.value);
 }
 
 }  // namespace
@@ -344,7 +353,7 @@ std::optional<BoundarySeed> walk_to_boundary(const Window& window, const Boundar
                                              const LineExtremum& start, double radius, RunCounts& counts) {
   std::optional<Probe> here =
       probe(window, options, start.place, start.s, start.equilibrium, Matrix(), counts);
-  if (here && here->w.value * start.sign >= 0.0) return seed_at(window, options, *here);
+  if (here && here->w.value * start.sign >= 0.0) return seed_at(window, options, *here, here->s.value);
   const double longest = radius;
   for (int i = 0; here && i < most_steps && radius > smallest_radius; ++i) {
     const Place move = uphill(here->w, start.sign, radius);
