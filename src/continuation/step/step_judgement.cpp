@@ -60,8 +60,8 @@ Verdict check_path(const PathProblem& problem, const PathFrame& frame, const Ste
 /// Whether the single mode `a` has converged to an eigenpair of the track `b`.
 bool have_merged(const PathProblem& problem, const Track& a, const Track& b, const SystemMatrix& mass) {
   const IdentityThresholds& thresholds = problem.thresholds.identity;
-  if (b.pair.chart != a.pair.chart || b.pair.part != a.pair.part) return false;
-  for (const Complex root : b.roots) {
+  if (b.pair.part != a.pair.part) return false;
+  for (const Complex root : roots_in_chart(b, a.pair.chart)) {
     const double scale = std::max(std::abs(a.roots[0]), problem.reference(a.pair.chart));
     if (std::abs(a.roots[0] - root) > thresholds.merged_distance * scale) continue;
     if (b.size() > 1 ||
@@ -112,9 +112,7 @@ double gap_of(const PathNode& node, std::size_t index) {
     for (std::size_t j = 0; j < node.tracks.size(); ++j) {
       const Track& other = node.tracks[j];
       if (j == index || other.pair.part != track.pair.part) continue;
-      for (const Complex s : other.roots) {
-        // Into either chart from the other one it is the reciprocal.
-        const Complex here = other.pair.chart == track.pair.chart ? s : chart_value(s, Chart::reciprocal);
+      for (const Complex here : roots_in_chart(other, track.pair.chart)) {
         if (std::isfinite(here.real())) gap = std::min(gap, std::abs(here - root));
       }
     }

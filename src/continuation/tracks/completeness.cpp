@@ -174,11 +174,12 @@ double resemblance(const ComplexMatrix& a, const ComplexMatrix& b) {
 
 bool have_common_eigenpair(const Track& a, const Track& b, double reference,
                            const IdentityThresholds& thresholds, const Vector& rounding) {
-  if (a.pair.chart != b.pair.chart || a.pair.part != b.pair.part) return false;
+  if (a.pair.part != b.pair.part) return false;
+  const ComplexVector others = roots_in_chart(b, a.pair.chart);
   for (Eigen::Index i = 0; i < a.size(); ++i) {
     const double scale = std::max(std::abs(a.roots[i]), reference);
     const double same = std::max(thresholds.merged_distance * scale, rounding.size() > 0 ? rounding[i] : 0.0);
-    if ((b.roots.array() - a.roots[i]).abs().minCoeff() > same) continue;
+    if ((others.array() - a.roots[i]).abs().minCoeff() > same) continue;
     const ComplexVector z = vector_of(a, i);
     const ComplexVector outside = z - b.pair.Z * b.pair.Z.colPivHouseholderQr().solve(z);
     if (1.0 - outside.squaredNorm() > thresholds.merged_assurance) return true;

@@ -296,18 +296,19 @@ int number_growing_guards(const PathProblem& problem, const PathNode& right, Pat
   int found = 0;
   for (std::size_t t = 0; t < right.tracks.size(); ++t) {
     const Track& end = right.tracks[t];
-    std::vector<int>& modes = left.tracks[t].modes;
-    if (!contains(modes, Track::guard)) continue;
+    Track& begin = left.tracks[t];
+    if (!contains(begin.modes, Track::guard)) continue;
     const Vector rounding = rounding_of_roots(end, problem.thresholds.rounding);
+    const ComplexVector& roots = begin.departure ? begin.departure->roots : begin.roots;
     for (Eigen::Index i = 0; i < end.size(); ++i) {
-      int& mode = modes[static_cast<std::size_t>(i)];
+      const bool grows = end.roots[i].real() > rounding[i];
+      if (begin.modes[static_cast<std::size_t>(i)] != Track::guard || !grows) continue;
       // Of a pair in a real block the member with Im s > 0 has the number.
-      const bool is_conjugate = end.pair.is_real && is_lower(end.roots[i], end.pair.chart);
-      if (mode != Track::guard || is_conjugate || !(end.roots[i].real() > rounding[i])) continue;
-      mode = numbers.count++;
+      const Eigen::Index other = begin.pair.is_real ? conjugate_of(roots, i) : i;
+      const bool is_upper = !is_lower(roots[i], begin.pair.chart);
+      begin.modes[static_cast<std::size_t>(is_upper ? other : i)] = Track::no_mode;
+      begin.modes[static_cast<std::size_t>(is_upper ? i : other)] = numbers.count++;
       ++found;
-      const Eigen::Index partner = end.pair.is_real ? conjugate_of(end.roots, i) : i;
-      if (partner != i) modes[static_cast<std::size_t>(partner)] = Track::no_mode;
     }
   }
   return found;

@@ -67,11 +67,17 @@ Eigen::Index nearest_root(const ComplexVector& roots, Complex s) {
 }
 
 Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member) {
+  if (roots[member].imag() == 0.0) return member;  // another one may be as near
   return nearest_root(roots, std::conj(roots[member]));
 }
 
 bool is_lower(Complex root, Chart chart) {
   return chart == Chart::finite ? root.imag() < 0.0 : root.imag() > 0.0;
+}
+
+ComplexVector roots_in_chart(const Track& track, Chart chart) {
+  if (track.pair.chart == chart) return track.roots;
+  return track.roots.unaryExpr([](Complex root) { return chart_value(root, Chart::reciprocal); });
 }
 
 ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart) {

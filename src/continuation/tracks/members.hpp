@@ -38,6 +38,8 @@ Eigen::Index conjugate_of(const ComplexVector& roots, Eigen::Index member);
 /// Whether Im s < 0, of an eigenvalue in its chart. The mode of a complex pair is the other member.
 bool is_lower(Complex root, Chart chart);
 
+/// The eigenvalues of a track in a chart.
+ComplexVector roots_in_chart(const Track& track, Chart chart);
 /// A series that a track has in its chart, in another chart; empty where it is infinite there.
 ComplexVector in_chart(ComplexVector series, const Track& track, Chart chart);
 

@@ -177,9 +177,7 @@ std::optional<Partner> nearest_partner(const PathNode& node, std::size_t index) 
   for (std::size_t i = 0; i < node.tracks.size(); ++i) {
     const Track& other = node.tracks[i];
     if (i == index || other.pair.part != track.pair.part) continue;
-    const bool same_chart = other.pair.chart == track.pair.chart;
-    const double gap =
-        gap_between(track.roots, same_chart ? other.roots : ComplexVector(other.roots.cwiseInverse()));
+    const double gap = gap_between(track.roots, roots_in_chart(other, track.pair.chart));
     if (gap < nearest.distance) nearest = {false, i, gap};
   }
   if (!std::isfinite(nearest.distance)) return std::nullopt;
