@@ -49,6 +49,51 @@ ZIEGLER = FAMILY.format(0, 4, "a = 0.55\nc = 0", 'M = [[[3, 1], [1, 1]]]\nC = [[
 THROUGH_INFINITY = FAMILY.format(0, 2, "a = 1", 'E = [[[1, 0], [0, 1]], [["-a", 0], [0, 0]]]\nA = [[[-1, 0.2], [0.3, -2]]]')
 
 
+def plane(M, C, K, extra="", first="a", low=-1, high=1):
+    """A family over two parameters, a and b or x and y."""
+    names = "ab" if first == "a" else "xy"
+    values = "\n".join(f"{name} = 0.1" for name in names)
+    return (f'[trace]\nparameter = "{first}"\nfrom = {low}\nto = {high}\n{extra}\n[parameters]\n{values}\n'
+            f"[matrix_family]\nM = [{M}]\nC = [{C}]\nK = [{K}]\n")
+
+
+# The vector of the mode on the boundary becomes real along it.
+REAL_SHAPES = plane("[[0.8, 0], [0, 1]]", '[["-0.03*b", "-0.07 + 0.16*b"], ["0.14 + 0.33*a", "0.07 + 0.1*b"]]',
+                    '[["1.51 + 0.42*a - 0.28*b", "0.8*a - 0.2*b"], ["a + 0.37*b", "1.69 - 0.92*b"]]')
+ROUND = plane("[[0.99, 0.14], [0.14, 0.97]]",
+              '[["0.06+0.36*a^2+0.11*b", "-0.12-0.16*a^2+0.16*b"], ["-0.18-0.27*a^2+0.48*b", "0.1-0.11*a^2-0.11*b"]]',
+              '[["1.01-0.37*a^2+0.36*b", "0.79*a^2-0.43*b"], ["-0.03*a^2+0.31*b", "0.58-0.17*a^2+0.4*b"]]', "tolerance = 1e-8")
+# Without damping: the stiffness of the first freedom is lost at y = 0.7 + (x - 0.5)^2 / 2, and with a second one a little above.
+LOST_STIFFNESS = ('[["y - 0.7 - 0.5*(x - 0.5)^2"]]', '[["y - 0.7 - 0.5*(x - 0.5)^2", 0.1], [0.1, 2]]')
+
+
+class Boundaries(VerdictTest):
+    def curves(self, scene, second, low, high):
+        self.write("scene.toml", scene)
+        text = self.run_well("boundary", "scene.toml", "--second", second, "--second-from", str(low), "--second-to", str(high),
+                             "-o", "b.h5", "--force")
+        return re.findall(r"^  \d+ +(\w+) .*  (\w+(?:, \w+)?)  (?:yes|no|in part)$", text, re.MULTILINE), text
+
+    def test_a_curve_on_which_shapes_become_real_is_followed_from_edge_to_edge(self):
+        curves, _ = self.curves(REAL_SHAPES, "b", -1, 1)
+        self.assertEqual(curves, [("divergence", "edge, edge"), ("flutter", "edge, edge"), ("flutter", "edge, edge")])
+
+    def test_a_closed_curve_goes_round_once_and_has_no_corners(self):
+        for tolerance in "1e-8", "1e-6":
+            curves, text = self.curves(ROUND.replace("1e-8", tolerance), "b", -1, 1)
+            self.assertEqual(curves, [("flutter", "closed")])
+            self.assertNotIn("corner", text)
+
+    def test_without_damping_a_lost_stiffness_is_no_flutter(self):
+        for stiffness in LOST_STIFFNESS:
+            size = 2 if "0.1" in stiffness else 1
+            curves, text = self.curves(plane(np.eye(size).tolist(), np.zeros((size, size)).tolist(), stiffness, "tolerance = 1e-8", "x",
+                                             0), "y", 0, 1)
+            self.assertEqual(curves, [("divergence", "edge, edge")])
+            self.assertNotIn("could not be followed", text)
+            self.assertRegex(text, r"edge, edge +yes\n")
+
+
 class Rotors(VerdictTest):
     def critical_speeds(self, scene, *options):
         file = self.trace(scene, "--force", *options)
@@ -221,6 +266,29 @@ coefficient = 0.1
 """
         self.assertIn("another equilibrium path crosses at k = 0 (a line of equilibria); branch 1 is straight on, branch 2 leaves "
                       "it (k stays, m.x rises)", self.trace_and_read(scene))
+
+
+# One mass changes its sign at m = 0.01, and a real eigenvalue goes through infinity there; another one grows on both sides.
+MASS_SIGN = FAMILY.format(1, -1, "k = -1", "M = [[[1, 0.1], [0.1, 0]], [[0, 0], [0, 1]]]\nC = [[[0.2, 0], [0, 0.3]]]\n"
+                          'K = [[[1, 0.2], [0.2, "k"]]]')
+
+
+class FewModes(VerdictTest):
+    def test_a_mode_that_comes_from_infinity_does_not_take_the_place_of_one_that_grows(self):
+        for choice in "--modes=1", "--modes=2":
+            for tolerance in "1e-5", "1e-6", "1e-7":
+                text = self.trace_and_read(MASS_SIGN, "--set", "k=-1", choice, "--tolerance", tolerance)
+                self.assertIn("stable ranges  none", text)
+                self.assertNotIn("no special point was located", text)
+
+    def test_one_eigenvalue_is_one_mode_also_as_its_reciprocal(self):
+        self.trace_and_read(MASS_SIGN, "--set", "k=0", "--modes=1")
+        rows = list(csv.DictReader(self.run_well("eval", "loci.h5", "--at", "-0.1", "--csv").splitlines()))
+        companion = np.linalg.solve(np.block([[np.eye(2), np.zeros((2, 2))], [np.zeros((2, 2)), np.array([[1, 0.1], [0.1, -0.1]])]]),
+                                    np.block([[np.zeros((2, 2)), np.eye(2)],
+                                              [-np.array([[1, 0.2], [0.2, 0]]), -np.diag([0.2, 0.3])]]))
+        grows = sorted(s.real for s in np.linalg.eigvals(companion) if s.real > 0 and s.imag >= 0)
+        np.testing.assert_allclose(sorted(float(row["real"]) for row in rows if float(row["real"]) > 0), grows, rtol=1e-5)
 
 
 if __name__ == "__main__":

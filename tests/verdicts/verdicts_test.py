@@ -22,10 +22,10 @@ class VerdictTest(CommandTest):
         self.run_well("trace", MODELS / f"{name}.toml", "-o", output, "--quiet", "--force", *options)
         return self.folder / output
 
-    def trace_and_read(self, scene):
+    def trace_and_read(self, scene, *options):
         """The summary of a trace."""
         self.write("scene.toml", scene)
-        return self.run_well("trace", "scene.toml", "-o", "loci.h5")
+        return self.run_well("trace", "scene.toml", "-o", "loci.h5", "--force", *options)
 
     def info(self, file):
         return json.loads(self.run_well("info", file, "--json"))
