@@ -80,6 +80,34 @@ std::string unknown_option(const CLI::App& program, const CLI::App& command, con
   return text + suggestion(name, options_of(command));
 }
 
+/// A line of the help as several, so that none is wider than a terminal: descriptions go on below themselves,
+/// commands behind a backslash. `column`: where descriptions begin.
+std::string within_terminal(std::string line, std::size_t column) {
+  constexpr std::size_t width = 80;
+  const bool is_command = line.starts_with("  eigentrail ");
+  const bool is_described =
+      line.size() > column && (line.starts_with("  -") || line.compare(column - 2, 2, "  ") == 0);
+  const std::size_t own_indent = std::min(line.find_first_not_of(' '), line.size());
+  const std::string indent(is_command ? own_indent + 4 : is_described ? column : own_indent, ' ');
+  const std::string end = is_command ? " \\" : "";
+  std::string lines;
+  while (line.size() > width) {
+    const std::size_t blank = line.rfind(' ', width - end.size());
+    if (blank == std::string::npos || blank <= indent.size()) break;  // a word that is as wide
+    lines += line.substr(0, blank) + end + '\n';
+    line = indent + line.substr(blank + 1);
+  }
+  return lines + line;
+}
+
+class HelpFormatter : public CLI::Formatter {
+  std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
+    const std::string help = Formatter::make_help(command, std::move(name), mode);
+    return joined(split(help, '\n'), "\n",
+                  [this](const std::string& line) { return within_terminal(line, get_column_width()); });
+  }
+};
+
 /// What is wrong with a command line.
 std::string message_of(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = command_of(program);
@@ -108,6 +136,7 @@ int run(int argc, char** argv) try {
   use_one_thread_within_blas();
   CLI::App program("Follows the eigenvalues of a constrained mechanical system while a parameter changes.",
                    "eigentrail");
+  program.formatter(std::make_shared<HelpFormatter>());
   program.set_version_flag("--version", "eigentrail " + version());
   program.require_subcommand(1);
   program.footer(

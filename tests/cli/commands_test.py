@@ -441,6 +441,15 @@ class Help(CommandTest):
         listed = self.run_well("--help").split("Subcommands:\n")[1]
         return re.findall(r"^  (\w+) ", listed, re.MULTILINE)
 
+    def test_no_line_is_wider_than_a_terminal(self):
+        formats = re.findall(r"^  ([\w-]+) ", self.run_well("import", "--help").split("Subcommands:\n")[1], re.MULTILINE)
+        self.assertGreaterEqual(len(formats), 4)
+        for command in [[], *([name] for name in self.commands()), *(["import", name] for name in formats)]:
+            with self.subTest(command):
+                text = self.run_well(*command, "--help")
+                self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
+                self.assertNotIn("  \\\n", text)
+
     def test_every_command_has_an_example_and_a_section_of_the_documentation(self):
         sections = (SCENES.parent.parent / "docs" / "commands.md").read_text(encoding="utf-8")
         self.assertGreaterEqual(len(self.commands()), 12)
