@@ -203,7 +203,7 @@ class BoundarySearch {
       report(share);
     };
     const auto follow_from = [&](std::size_t seed) {
-      return packed(follow_curve(window_, function_of(seeds_[seed], options_), options_.trace, *starts_[seed],
+      return packed(follow_curve(window_, function_of(seeds_[seed].kind, options_), options_.trace, *starts_[seed],
                                  on_point));
     };
     const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});

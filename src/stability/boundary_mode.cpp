@@ -69,6 +69,10 @@ double BoundaryFunction::distance_to_end(double tau, double delta) const {
   return kind == BoundaryKind::flutter ? -delta : -tau * damping_ratio;
 }
 
+BoundaryFunction function_of(BoundaryKind kind, const BoundaryOptions& options) {
+  return {kind, options.damping_ratio.value_or(0.0)};
+}
+
 Situation compute_situation(const Window& window, const BoundaryFunction& function, const PlaceGuess& guess,
                             RunCounts& counts) {
   const PathProblem problem = window.at(guess.place);

@@ -33,6 +33,9 @@ struct BoundaryFunction {
   double distance_to_end(double tau, double delta) const;
 };
 
+/// The function whose zeros are the boundaries of a kind.
+BoundaryFunction function_of(BoundaryKind kind, const BoundaryOptions& options);
+
 /// The followed block (the mode and its conjugate, two modes without theirs, or the null vector of K) at a
 /// place, predicted or computed.
 struct BoundaryBlock {

@@ -306,13 +306,9 @@ Situation correct_seed(const Window& window, const BoundarySeed& seed, const Bou
 
 }  // namespace
 
-BoundaryFunction function_of(const BoundarySeed& seed, const BoundaryOptions& options) {
-  return {seed.kind, options.damping_ratio.value_or(0.0)};
-}
-
 CurveStart start_curve(const Window& window, const BoundaryOptions& options, const BoundarySeed& seed) {
   CurveStart start;
-  const BoundaryFunction function = function_of(seed, options);
+  const BoundaryFunction function = function_of(seed.kind, options);
   const Situation there = correct_seed(window, seed, function, start.counts);
   if (there.status != PointStatus::computed) {
     start.failure = boundary_name(seed.kind) + " near " + window.text(seed.place) + ": " + there.message;

@@ -17,9 +17,6 @@ struct CurveStart {
   RunCounts counts;
 };
 
-/// The function whose zeros are the curve through a seed.
-BoundaryFunction function_of(const BoundarySeed& seed, const BoundaryOptions& options);
-
 /// Corrects a seed by Newton's method and expands the curve through it.
 CurveStart start_curve(const Window& window, const BoundaryOptions& options, const BoundarySeed& seed);
 

@@ -32,10 +32,9 @@ BoundaryKind kind_of(const BoundaryOptions& options, Complex s) {
   return s.imag() == 0.0 ? BoundaryKind::divergence : BoundaryKind::flutter;
 }
 
-/// Instability of a mode: Re s, or Re s + ratio |s| if a damping ratio is asked for. Zero on the boundary,
-/// positive if the mode is unstable or less damped than asked.
+/// Zero on the boundary, positive if the mode is unstable or less damped than asked.
 double instability(const BoundaryOptions& options, Complex s) {
-  return s.real() + options.damping_ratio.value_or(0.0) * std::abs(s);
+  return function_of(kind_of(options, s), options).instability(s);
 }
 
 /// Whether the instability of a mode that changes its sign here passes through zero. If not, it jumps: the
@@ -215,14 +214,12 @@ constexpr double close_enough = 1e-6;  ///< close enough to the boundary for New
 /// The Taylor polynomial of degree two of a function about a place.
 template <class Value>
 struct Quadratic {
-  Value value{};
-  std::array<Value, 2> gradient{};
-  std::array<Value, 3> hessian{};  ///< second derivatives PP, PQ, QQ
+  Value value;
+  Eigen::Matrix<Value, 2, 1> gradient;
+  Eigen::Matrix<Value, 2, 2> hessian;
 
   Value at(const Place& move) const {
-    return value + gradient[0] * move[0] + gradient[1] * move[1] +
-           0.5 * (hessian[0] * (move[0] * move[0]) + 2.0 * hessian[1] * (move[0] * move[1]) +
-                  hessian[2] * (move[1] * move[1]));
+    return value + gradient.cwiseProduct(move).sum() + 0.5 * (hessian * move).cwiseProduct(move).sum();
   }
 };
 
@@ -238,11 +235,9 @@ struct Probe {
 /// The polynomial from series of second order along the directions (1, 0), (0, 1) and (1, 1).
 template <class Value>
 Quadratic<Value> quadratic(const std::array<Series<Value, 2>, 3>& along) {
-  Quadratic<Value> model;
-  model.value = along[0][0];
-  model.gradient = {along[0][1], along[1][1]};
-  model.hessian = {2.0 * along[0][2], along[2][2] - along[0][2] - along[1][2], 2.0 * along[1][2]};
-  return model;
+  const Value mixed = along[2][2] - along[0][2] - along[1][2];
+  return {along[0][0], Eigen::Matrix<Value, 2, 1>{{along[0][1], along[1][1]}},
+          Eigen::Matrix<Value, 2, 2>{{2.0 * along[0][2], mixed}, {mixed, 2.0 * along[1][2]}}};
 }
 
 Series<double, 2> instability_series(const BoundaryOptions& options, const Series<Complex, 2>& s) {
@@ -307,10 +302,8 @@ std::optional<Probe> probe_from(const Window& window, const BoundaryOptions& opt
 /// Step of at most `radius` that increases sign * w: the Newton step with each eigenvalue of the Hessian
 /// replaced by its magnitude, but at least |slope| / radius.
 Place uphill(const Quadratic<double>& w, double sign, double radius) {
-  Eigen::Matrix2d hessian;
-  hessian << w.hessian[0], w.hessian[1], w.hessian[1], w.hessian[2];
-  const Place slope = sign * Place(w.gradient[0], w.gradient[1]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(hessian)};
+  const Place slope = sign * w.gradient;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(w.hessian)};
   const Place components = solver.eigenvectors().transpose() * slope;
   const Place curvatures = solver.eigenvalues().cwiseAbs().cwiseMax(slope.norm() / radius);
   const Place step = solver.eigenvectors() * components.cwiseQuotient(curvatures.cwiseMax(1e-300));
