@@ -100,9 +100,6 @@ Owned<SUNLinearSolver> linear_solver(Session& session, SUNContext context) {
   return solver;
 }
 
-void free_context(SUNContext context) {
-  SUNContext_Free(&context);
-}
 void free_kinsol(void* memory) {
   KINFree(&memory);
 }
@@ -112,24 +109,20 @@ void free_kinsol(void* memory) {
 NonlinearResult solve_with_kinsol(const NonlinearProblem& problem, double tolerance, int max_iterations,
                                   Vector& u) {
   Session session{problem};
-  SUNContext raw_context = nullptr;
-  check(SUNContext_Create(nullptr, &raw_context), "SUNContext_Create");
-  const auto context = own<SUNContext>(raw_context, free_context, "a context");
-
+  const sundials::Context context;
   const auto n = static_cast<sunindextype>(u.size());
   const auto wrap = [&](double* data) {
-    return own<N_Vector>(N_VMake_Serial(n, data, context.get()), N_VDestroy, "a vector");
+    return own<N_Vector>(N_VMake_Serial(n, data, context), N_VDestroy, "a vector");
   };
   Vector u_scale_data = problem.u_scale;
   Vector f_scale_data = problem.f_scale;
   const auto unknowns = wrap(u.data());
   const auto u_scale = wrap(u_scale_data.data());
   const auto f_scale = wrap(f_scale_data.data());
-  const auto matrix = token_matrix(context.get());
-  const auto solver = linear_solver(session, context.get());
+  const auto matrix = token_matrix(context);
+  const auto solver = linear_solver(session, context);
 
-  const std::unique_ptr<void, void (*)(void*)> memory(KINCreate(context.get()), free_kinsol);
-  if (!memory) throw std::runtime_error("SUNDIALS could not create KINSOL's memory");
+  const auto memory = own<void*>(KINCreate(context), free_kinsol, "KINSOL's memory");
   check(KINSetErrHandlerFn(memory.get(), keep_message, &session), "KINSetErrHandlerFn");
   check(KINSetUserData(memory.get(), &session), "KINSetUserData");
   check(KINInit(memory.get(), evaluate_residual, unknowns.get()), "KINInit");
