@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -169,28 +168,25 @@ void report_residual(const Model& model, const SteadyResidual& residual, const S
 NonlinearResult solve_by_turns(const NonlinearProblem& problem, Eigen::Index n, const SteadyOptions& options,
                                Vector& u) {
   const bool large = n >= many_coordinates;
-  const auto kinsol = [&](int iterations) {
-    return
-        [&, iterations](Vector& v) { return solve_with_kinsol(problem, options.tolerance, iterations, v); };
-  };
   const int first = std::min(first_iterations, options.max_iterations);
+  const auto by_kinsol = [&](int iterations, Vector& v) {
+    return solve_with_kinsol(problem, options.tolerance, iterations, v);
+  };
   if (!options.relax)
     return large ? solve_by_whole_steps(problem, n, whole_steps_tolerance, most_whole_steps, u)
-                 : kinsol(first)(u);
-  std::vector<std::function<NonlinearResult(Vector&)>> turns;
-  if (!large) turns.push_back(kinsol(first));
-  turns.push_back([&](Vector& v) { return solve_in_load_steps(problem, n, v); });
-  if (options.max_iterations > first) turns.push_back(kinsol(options.max_iterations));
+                 : by_kinsol(first, u);
   NonlinearResult result;
-  for (const auto& turn : turns) {
+  const auto turn = [&](const auto& solve) {
+    if (result.converged) return;
     Vector from_the_guess = u;
-    NonlinearResult found = turn(from_the_guess);
-    found.iterations += result.iterations;
-    result = std::move(found);
-    if (!result.converged) continue;
-    u = std::move(from_the_guess);
-    break;
-  }
+    const int before = result.iterations;
+    result = solve(from_the_guess);
+    result.iterations += before;
+    if (result.converged) u = std::move(from_the_guess);
+  };
+  if (!large) turn([&](Vector& v) { return by_kinsol(first, v); });
+  turn([&](Vector& v) { return solve_in_load_steps(problem, n, v); });
+  if (options.max_iterations > first) turn([&](Vector& v) { return by_kinsol(options.max_iterations, v); });
   return result;
 }
 
