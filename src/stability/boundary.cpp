@@ -203,8 +203,8 @@ class BoundarySearch {
       report(share);
     };
     const auto follow_from = [&](std::size_t seed) {
-      return packed(follow_curve(window_, function_of(seeds_[seed].kind, options_), options_.trace, *starts_[seed],
-                                 on_point));
+      return packed(follow_curve(window_, function_of(seeds_[seed].kind, options_), options_.trace,
+                                 *starts_[seed], on_point));
     };
     const std::vector<std::string> followed = workers_.compute({"curve", seeds, follow_from});
     for (std::size_t i = 0; i < seeds.size(); ++i) unpack(followed[i], ready[seeds[i]]);

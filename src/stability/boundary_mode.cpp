@@ -73,6 +73,13 @@ BoundaryFunction function_of(BoundaryKind kind, const BoundaryOptions& options) 
   return {kind, options.damping_ratio.value_or(0.0)};
 }
 
+Situation failed_situation(PointStatus status, const std::string& message) {
+  Situation failed;
+  failed.point.status = status;
+  failed.point.message = message;
+  return failed;
+}
+
 Situation compute_situation(const Window& window, const BoundaryFunction& function, const PlaceGuess& guess,
                             RunCounts& counts) {
   const PathProblem problem = window.at(guess.place);
@@ -80,14 +87,9 @@ Situation compute_situation(const Window& window, const BoundaryFunction& functi
   result.place = guess.place;
   result.point =
       reduce_at(problem, problem.parameters[problem.traced], guess.equilibrium, guess.basis, counts);
-  result.status = result.point.status;
-  result.message = result.point.message;
-  if (result.status != PointStatus::computed) return result;
-  if (guess.basis.size() > 0 && result.point.pencil.size() != guess.basis.cols()) {
-    result.status = PointStatus::no_equilibrium;
-    result.message = "the number of independent constraints changed";
-    return result;
-  }
+  if (!result.computed()) return result;
+  if (guess.basis.size() > 0 && result.point.pencil.size() != guess.basis.cols())
+    return failed_situation(PointStatus::no_equilibrium, "the number of independent constraints changed");
   const TangentBasis& basis = result.point.basis;
   InvariantPair start;
   start.is_real = function.kind != BoundaryKind::coalescence;
@@ -104,11 +106,8 @@ Situation compute_situation(const Window& window, const BoundaryFunction& functi
   const StageTimer timer(counts.modes_seconds);
   result.pair = correct_pair(PencilAtPoint(result.pencil), by_parts_of_vector(std::move(start)),
                              reference(window, function, result.pencil), problem.corrector, counts.modes);
-  if (result.pair.status != PairStatus::converged) {
-    result.status = PointStatus::mode_lost;
-    result.message = "the corrector did not converge to the mode";
-    return result;
-  }
+  if (result.pair.status != PairStatus::converged)
+    return failed_situation(PointStatus::mode_lost, "the corrector did not converge to the mode");
   result.functions = function.functions({result.pair.Lambda});
   return result;
 }

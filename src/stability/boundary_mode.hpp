@@ -54,18 +54,21 @@ struct PlaceGuess {
 
 /// A place with the computed equilibrium and block.
 struct Situation {
-  PointStatus status = PointStatus::computed;
-  std::string message = {};  ///< reason when not computed
   Place place = {};
-  PathPoint point = {};          ///< its invariant pairs are not computed
+  PathPoint point = {};          ///< with the status; its invariant pairs are not computed
   ReducedPencil pencil = {};     ///< order 0: that of the point, or K - g b c' for divergence
   bool bordered = false;         ///< whether it is K - g b c'
   InvariantPair pair = {};       ///< of `pencil`, in reduced coordinates
   ComplexMatrix functions = {};  ///< of the block, order 0
+
+  bool computed() const { return point.status == PointStatus::computed; }
 };
 
-/// Solves the equilibrium and corrects the block at the place of a guess. A failure is reported in `status`
-/// and `message`.
+/// A situation that was not computed, and why.
+Situation failed_situation(PointStatus status, const std::string& message);
+
+/// Solves the equilibrium and corrects the block at the place of a guess. A failure is reported in the
+/// point's status.
 Situation compute_situation(const Window& window, const BoundaryFunction& function, const PlaceGuess& guess,
                             RunCounts& counts);
 

@@ -168,7 +168,7 @@ class CornerFinder {
       for (std::size_t k = 0; k < 2; ++k) {
         const BoundaryFunction& function = curves_[at[k].curve].function;
         there[k] = compute_situation(window_, function, guess[k], counts_);
-        if (there[k].status != PointStatus::computed) return false;
+        if (!there[k].computed()) return false;
         const auto gradients = function_gradients(window_, there[k], function, counts_);
         if (!gradients) return false;
         const auto row = static_cast<Eigen::Index>(k);

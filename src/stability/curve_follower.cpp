@@ -90,8 +90,7 @@ class Arm {
     const double h = control.propose(10.0);  // more than the diagonal of the window: no remaining range
     const Situation there =
         correct_along(window_, function_, predict(last(), sign_ * h), last().normal, counts_);
-    if (there.status != PointStatus::computed)
-      return reject(control, h, INFINITY, there.message, there.status);
+    if (!there.computed()) return reject(control, h, INFINITY, there.point.message, there.point.status);
     std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
     if (!next) return reject(control, h, INFINITY, "a series is not finite");
     const std::optional<ChordStep> step = step_to(*next);
@@ -147,9 +146,7 @@ class Arm {
     Eigen::Index axis = 0;
     (guess.place - bound).cwiseAbs().minCoeff(&axis);
     guess.place[axis] = bound[axis];
-    Situation there = correct_along(window_, function_, guess, Place::Unit(1 - axis), counts_);
-    if (there.status == PointStatus::computed && !Window::contains(there.place))
-      there.status = PointStatus::mode_lost;
+    const Situation there = correct_along(window_, function_, guess, Place::Unit(1 - axis), counts_);
     const Landing landing = finish(there, edge_flag, CurveEnd::edge);
     return landing == Landing::failed ? cut_on_edge(step, t, guess) : landing;
   }
@@ -158,7 +155,7 @@ class Arm {
   /// all along the edge, as for a system without damping: g = 0 then does not determine the place.
   Landing cut_on_edge(const ChordStep& step, double t, const PlaceGuess& guess) {
     const Situation there = compute_situation(window_, function_, guess, counts_);
-    if (there.status != PointStatus::computed) return Landing::failed;
+    if (!there.computed()) return Landing::failed;
     const Matrix series = step.series(sign_ > 0.0 ? t : 1.0 - t);
     if (!append(point_on_dense_curve(window_, function_, there, series, last(), counts_)))
       return Landing::failed;
@@ -188,7 +185,8 @@ class Arm {
 
   /// Appends the last point, unless the arm is there already, and sets its flag and the kind of end.
   Landing finish(const Situation& there, PointFlag flag, CurveEnd how) {
-    if (there.status != PointStatus::computed) return Landing::failed;
+    if (!there.computed() || (how == CurveEnd::edge && !Window::contains(there.place)))
+      return Landing::failed;
     if ((there.place - last().place).norm() > same_place) {
       std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
       if (!next) return Landing::failed;
@@ -276,11 +274,10 @@ Situation correct_seed(const Window& window, const BoundarySeed& seed, const Bou
   const PathProblem problem = window.at(seed.place);
   const PathPoint point =
       reduce_at(problem, problem.parameters[problem.traced], seed.equilibrium, Matrix(), counts);
-  Situation failed{.status = point.status, .message = point.message};
-  if (point.status != PointStatus::computed) return failed;
+  if (point.status != PointStatus::computed) return failed_situation(point.status, point.message);
+  Situation failed = failed_situation(PointStatus::mode_lost, "");
   Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
   ++counts.spectra;
-  failed.status = PointStatus::mode_lost;
   if (spectrum.modes.empty()) return failed;
   std::sort(spectrum.modes.begin(), spectrum.modes.end(),
             [&](const auto& a, const auto& b) { return std::abs(a.s - seed.s) < std::abs(b.s - seed.s); });
@@ -294,12 +291,11 @@ Situation correct_seed(const Window& window, const BoundarySeed& seed, const Bou
   for (const Place& direction :
        {seed.direction, gradient_itself, Place(Place::UnitX()), Place(Place::UnitY())}) {
     const Situation there = correct_along(window, function, guess, direction, counts);
-    const bool near = there.status == PointStatus::computed && Window::contains(there.place) &&
+    const bool near = there.computed() && Window::contains(there.place) &&
                       (there.place - seed.place).norm() < longest_correction;
     if (near) return there;
-    failed.message = there.status == PointStatus::computed
-                         ? "Newton's method left for " + window.text(there.place)
-                         : there.message;
+    failed.point.message =
+        there.computed() ? "Newton's method left for " + window.text(there.place) : there.point.message;
   }
   return failed;
 }
@@ -310,8 +306,9 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
   CurveStart start;
   const BoundaryFunction function = function_of(seed.kind, options);
   const Situation there = correct_seed(window, seed, function, start.counts);
-  if (there.status != PointStatus::computed) {
-    start.failure = boundary_name(seed.kind) + " near " + window.text(seed.place) + ": " + there.message;
+  if (!there.computed()) {
+    start.failure =
+        boundary_name(seed.kind) + " near " + window.text(seed.place) + ": " + there.point.message;
     return start;
   }
   const double tau = there.functions(0, 0).real();

@@ -68,7 +68,7 @@ Situation correct(const Window& window, const BoundaryFunction& function, PlaceG
   double last = INFINITY;
   for (int i = 0; i < most_corrections; ++i) {
     Situation situation = compute_situation(window, function, guess, counts);
-    if (situation.status != PointStatus::computed) return situation;
+    if (!situation.computed()) return situation;
     const auto gradients = function_gradients(window, situation, function, counts);
     const Place move = gradients ? step(situation, *gradients) : Place::Constant(INFINITY);
     const double size = move.norm();
@@ -77,7 +77,7 @@ Situation correct(const Window& window, const BoundaryFunction& function, PlaceG
     last = size;
     guess = as_guess(situation, situation.place + move);
   }
-  return {.status = PointStatus::mode_lost, .message = "no point of the curve was found nearby"};
+  return failed_situation(PointStatus::mode_lost, "no point of the curve was found nearby");
 }
 
 }  // namespace
