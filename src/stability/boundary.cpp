@@ -27,7 +27,7 @@ Members<6> archived(const BoundarySeed*);
 Members<4> archived(const LineExtremum*);
 Members<2> archived(const Finding*);
 Members<6> archived(const LineScan*);
-Members<17> archived(const CurvePoint*);
+Members<13> archived(const CurvePoint*);
 Members<4> archived(const ChordStep*);
 Members<2> archived(const BoundaryFunction*);
 Members<2> archived(const ArmEnd*);
@@ -167,7 +167,7 @@ class BoundarySearch {
 
   bool is_known(std::size_t seed, const FollowedCurve& curve) const {
     return curve.function.kind == seeds_[seed].kind &&
-           curve.passes(starts_[seed]->place, starts_[seed]->s, options_.trace.tolerance,
+           curve.passes(starts_[seed]->place(), starts_[seed]->s, options_.trace.tolerance,
                         window_.reference());
   }
 
@@ -230,7 +230,7 @@ class BoundarySearch {
       curve.kind = followed.function.kind;
       for (const CurvePoint& point : followed.points) {
         if ((point.flags & seed_flag) != 0) curve.mode = "mode " + std::to_string(point.number);
-        curve.points.push_back({window_.declared(point.place), window_.declared_direction(point.tangent),
+        curve.points.push_back({window_.declared(point.place()), window_.declared_direction(point.tangent()),
                                 point.s, point.others, point.shape, point.path.x.col(0), point.flags});
       }
       for (const ChordStep& step : followed.steps) curve.steps.push_back(stored_step(window_, step));

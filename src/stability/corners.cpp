@@ -82,8 +82,8 @@ class CornerFinder {
         if ((point.flags & takens_bogdanov_flag) == 0) continue;
         for (std::size_t j = 0; j < curves_.size(); ++j) {
           if (curves_[j].function.kind == BoundaryKind::divergence &&
-              curves_[j].passes(point.place, 0.0, tolerance, window_.reference()))
-            add(CornerKind::takens_bogdanov, point.place, {0.0, 0.0}, i, j);
+              curves_[j].passes(point.place(), 0.0, tolerance, window_.reference()))
+            add(CornerKind::takens_bogdanov, point.place(), {0.0, 0.0}, i, j);
         }
       }
     }
@@ -217,7 +217,7 @@ class CornerFinder {
     const FollowedCurve& curve = curves_[at.curve];
     const Place place = curve.steps[at.step].place(t);
     const CurvePoint& base = curve.points[at.step + (t > 0.5 ? 1 : 0)];
-    return predict(base, base.tangent.dot(place - base.place));
+    return predict(base, base.tangent().dot(place - base.place()));
   }
 
   /// The eigenvalue of the block with Im s >= 0; 0 for divergence.

@@ -25,8 +25,6 @@ constexpr double coalescing = 1e-3;
 /// Steps shrink with the distance from a fold of the equilibrium. Shorter steps than this near a fold are
 /// useless, because rounding errors grow there; the curve ends.
 constexpr double shortest_beside_fold = 1e-6;
-/// A reciprocal condition number of the equilibrium's stiffness below this means that a fold is near.
-constexpr double near_fold = 1e-3;
 
 /// Whether the dense output of a step passes through a place with the eigenvalue `s` there. The tolerances
 /// exceed the sum of the errors of the two curves compared.
@@ -88,10 +86,10 @@ class Arm {
   /// Tries one step. Returns whether the arm goes on.
   bool advance(StepControl& control) {
     const double h = control.propose(10.0);  // more than the diagonal of the window: no remaining range
-    const Situation there =
-        correct_along(window_, function_, predict(last(), sign_ * h), last().normal, counts_);
+    const Place across(-last().tangent().y(), last().tangent().x());
+    const Situation there = correct_along(window_, function_, predict(last(), sign_ * h), across, counts_);
     if (!there.computed()) return reject(control, h, INFINITY, there.point.message, there.point.status);
-    std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
+    std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent(), counts_);
     if (!next) return reject(control, h, INFINITY, "a series is not finite");
     const std::optional<ChordStep> step = step_to(*next);
     if (!step) return reject(control, h, bent_too_much, "the curve turns too sharply");
@@ -108,7 +106,7 @@ class Arm {
     control.accept(h, error);
     points.push_back(std::move(*next));
     steps.push_back(*step);
-    if (folds() && h < shortest_beside_fold) return stop_at_fold();
+    if (last().is_beside_fold && h < shortest_beside_fold) return stop_at_fold();
     on_point_();
     if (static_cast<int>(points.size()) < options_.max_nodes) return true;
     return stop(CurveEnd::lost,
@@ -130,8 +128,8 @@ class Arm {
     double seed = 2.0;
     const CurvePoint& first = points.front();
     if (points.size() > 1 &&
-        step_passes(step, first.place, first.s, options_.tolerance, window_.reference())) {
-      distance_from(step, first.place, seed);
+        step_passes(step, first.place(), first.s, options_.tolerance, window_.reference())) {
+      distance_from(step, first.place(), seed);
       if (sign_ < 0.0) seed = 1.0 - seed;
     }
     if (seed <= std::min(edge, last)) return seed > 1.0 ? Landing::nothing : close();
@@ -174,7 +172,7 @@ class Arm {
   Landing close() {
     // If the last point is very close to the seed compared with the last step, it is removed: the step from
     // it to the seed would be too short.
-    if ((points.front().place - last().place).norm() < 1e-3 * steps.back().length && points.size() > 2) {
+    if ((points.front().place() - last().place()).norm() < 1e-3 * steps.back().length && points.size() > 2) {
       points.pop_back();
       steps.pop_back();
     }
@@ -187,8 +185,8 @@ class Arm {
   Landing finish(const Situation& there, PointFlag flag, CurveEnd how) {
     if (!there.computed() || (how == CurveEnd::edge && !Window::contains(there.place)))
       return Landing::failed;
-    if ((there.place - last().place).norm() > same_place) {
-      std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent, counts_);
+    if ((there.place - last().place()).norm() > same_place) {
+      std::optional<CurvePoint> next = expand_curve(window_, function_, there, last().tangent(), counts_);
       if (!next) return Landing::failed;
       if (flag == takens_bogdanov_flag) {
         // The double eigenvalue is zero. QZ gives it to half the digits only, so |s| and the comparison with
@@ -218,8 +216,8 @@ class Arm {
     ++rejected;
     control.reject(h, error);
     if (!control.exhausted()) return true;
-    const std::string where = window_.text(last().place);
-    if (folds()) return stop_at_fold();
+    const std::string where = window_.text(last().place());
+    if (last().is_beside_fold) return stop_at_fold();
     if (status == PointStatus::no_equilibrium)
       return stop(CurveEnd::equilibrium_ends, "no equilibrium beyond " + where);
     if (last().gap < coalescing * std::max(std::abs(last().s), window_.reference()))
@@ -232,9 +230,8 @@ class Arm {
     return false;
   }
   const CurvePoint& last() const { return points.back(); }
-  bool folds() const { return last().solves_equilibrium && last().equilibrium_condition < near_fold; }
   bool stop_at_fold() {
-    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + window_.text(last().place));
+    return stop(CurveEnd::equilibrium_ends, "the equilibrium folds near " + window_.text(last().place()));
   }
   std::optional<ChordStep> step_to(const CurvePoint& next) const {
     return sign_ > 0.0 ? make_chord_step(last(), next) : make_chord_step(next, last());
@@ -247,7 +244,7 @@ class Arm {
   /// The prediction from the last point at the place of t.
   PlaceGuess guess_at(const ChordStep& step, double t) const {
     const Place place = at(step, t).head<2>();
-    return predict(last(), last().tangent.dot(place - last().place));
+    return predict(last(), last().tangent().dot(place - last().place()));
   }
 
   const Window& window_;

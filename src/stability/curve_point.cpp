@@ -17,6 +17,8 @@ constexpr int most_corrections = 12;
 constexpr double settled = 1e-14;    ///< smaller Newton corrections are rounding
 constexpr double stagnated = 1e-10;  ///< corrections below this that no longer halve are rounding
 constexpr double longest = 0.5;      ///< Newton's method fails if it moves farther than this
+/// A reciprocal condition number of the equilibrium's stiffness below this means that a fold is near.
+constexpr double near_fold = 1e-3;
 /// An instability below this multiple of max(|s|, reference) counts as zero.
 constexpr double vanishing = 1e-9;
 /// Largest sum of two eigenvalues, relative to their size, that are opposite.
@@ -89,20 +91,18 @@ std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunct
   const Place slope = gradient(function, situation.functions, *gradients);
   const double steepness = slope.norm();
   if (!(steepness > 0.0)) return std::nullopt;
-  CurvePoint point;
-  point.place = situation.place;
-  point.normal = slope / steepness;
-  point.tangent = Place(point.normal.y(), -point.normal.x());
-  if (point.tangent.dot(along) < 0.0) point.tangent = -point.tangent;
+  const Place normal = slope / steepness;
+  const Place tangent(normal.y(), -normal.x());
   const int order = window.order() + 1;
+  CurvePoint point;
   point.places = Matrix::Zero(2, order + 1);
-  point.places.col(0) = point.place;
-  point.places.col(1) = point.tangent;
+  point.places.col(0) = situation.place;
+  point.places.col(1) = tangent.dot(along) < 0.0 ? Place(-tangent) : tangent;
   for (int k = 2; k <= order; ++k) {
     const auto known =
         differentiate_situation(window, situation, function, point.places.leftCols(k), k, counts);
     if (!known) return std::nullopt;
-    point.places.col(k) = -function.series(known->functions)[k] / steepness * point.normal;
+    point.places.col(k) = -function.series(known->functions)[k] / steepness * normal;
   }
   auto series = differentiate_situation(window, situation, function, point.places, order, counts);
   if (!series) return std::nullopt;
@@ -112,8 +112,7 @@ std::optional<CurvePoint> expand_curve(const Window& window, const BoundaryFunct
   point.left = left_vector(situation);
   point.basis = situation.point.basis.T[0];
   const KktFactorization& kkt = situation.point.equilibrium.kkt;
-  point.solves_equilibrium = kkt.can_solve();
-  point.equilibrium_condition = kkt.reciprocal_condition();
+  point.is_beside_fold = kkt.can_solve() && kkt.reciprocal_condition() < near_fold;
   read_mode(situation, point);
   count_others(window, function, situation.point.pencil, point, counts);
   return point;
@@ -125,14 +124,11 @@ CurvePoint point_on_dense_curve(const Window& window, const BoundaryFunction& fu
   CurvePoint point = neighbour;
   point.flags = 0;
   point.others = 0;
-  point.place = situation.place;
   const double speed = series.col(1).head<2>().norm();
   Matrix along = series;
   for (Eigen::Index k = 1; k < along.cols(); ++k) along.col(k) /= std::pow(speed, k);
   point.places = along.topRows(2);
-  point.places.col(0) = point.place;
-  point.tangent = point.places.col(1);
-  point.normal = Place(-point.tangent.y(), point.tangent.x());
+  point.places.col(0) = situation.place;
   if (point.functions.rows() > 1) point.functions.topRows(2) = along.bottomRows(2).cast<Complex>();
   point.path.x.col(0) = situation.point.equilibrium.x;
   read_mode(situation, point);

@@ -11,22 +11,22 @@ namespace eigentrail {
 /// A point with the power series of the curve in the distance u along the tangent: place + u tangent +
 /// nu(u) normal, in scaled coordinates.
 struct CurvePoint {
-  Place place;
-  Place tangent, normal;               ///< of unit length; the normal is the direction of grad g
-  Matrix places;                       ///< 2 x (order + 2): series of the place in u
-  Path path;                           ///< series of the equilibrium in u
-  PairSeries mode;                     ///< series of the invariant pair in u; Z in physical coordinates
-  ComplexMatrix functions;             ///< k x (order + 2): series of the functions of the block in u
-  Vector left;                         ///< left null vector of the stiffness (divergence)
-  Matrix basis;                        ///< tangent basis at the point
-  double equilibrium_condition = 1.0;  ///< reciprocal condition number of the equilibrium's stiffness
-  bool solves_equilibrium = false;     ///< whether that stiffness was factorized, so that the number is valid
-  Complex s;                           ///< Im s >= 0
-  ComplexVector shape;                 ///< physical coordinates
-  int others = 0;                      ///< number of other modes that are unstable, or less damped than asked
-  double gap = 0.0;                    ///< distance of s from the nearest other eigenvalue with Im s >= 0
-  int number = 0;                      ///< number of the mode by ascending |s|, from 1
-  int flags = 0;                       ///< sum of PointFlag
+  Matrix places;                ///< 2 x (order + 2): series of the place in u
+  Path path;                    ///< series of the equilibrium in u
+  PairSeries mode;              ///< series of the invariant pair in u; Z in physical coordinates
+  ComplexMatrix functions;      ///< k x (order + 2): series of the functions of the block in u
+  Vector left;                  ///< left null vector of the stiffness (divergence)
+  Matrix basis;                 ///< tangent basis at the point
+  bool is_beside_fold = false;  ///< the stiffness of the equilibrium is nearly singular
+  Complex s;                    ///< Im s >= 0
+  ComplexVector shape;          ///< physical coordinates
+  int others = 0;               ///< number of other modes that are unstable, or less damped than asked
+  double gap = 0.0;             ///< distance of s from the nearest other eigenvalue with Im s >= 0
+  int number = 0;               ///< number of the mode by ascending |s|, from 1
+  int flags = 0;                ///< sum of PointFlag
+
+  Place place() const { return places.col(0); }
+  Place tangent() const { return places.col(1); }  ///< of unit length
 };
 
 /// The point with the series of the curve through a situation on it. The tangent has a nonnegative product

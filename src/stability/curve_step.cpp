@@ -56,11 +56,11 @@ std::vector<double> turning_points(const HermiteInterpolant& dense, Eigen::Index
 }  // namespace
 
 std::optional<ChordStep> make_chord_step(const CurvePoint& left, const CurvePoint& right) {
-  const Place chord = right.place - left.place;
+  const Place chord = right.place() - left.place();
   ChordStep step;
   step.length = chord.norm();
   const Place direction = chord / step.length;
-  if (!(left.tangent.dot(direction) > least_cosine && right.tangent.dot(direction) > least_cosine))
+  if (!(left.tangent().dot(direction) > least_cosine && right.tangent().dot(direction) > least_cosine))
     return std::nullopt;
   step.left = in_chord(left, direction);
   step.right = in_chord(right, direction);
