@@ -32,7 +32,7 @@ Members<4> archived(const ChordStep*);
 Members<2> archived(const BoundaryFunction*);
 Members<2> archived(const ArmEnd*);
 Members<7> archived(const FollowedCurve*);
-Members<5> archived(const CurveStart*);
+Members<4> archived(const CurveStart*);
 
 namespace {
 
@@ -144,11 +144,8 @@ class BoundarySearch {
       CurveStart start;
       unpack(bytes, start);
       result_.counts += start.counts;
-      if (!start.failure.empty()) {
-        note({"changes of stability that could not be followed", start.failure});
-        fail("a change of stability could not be followed");
-      }
-      if (!start.remark.empty()) note({start.remark, window_.text(start.remarked)});
+      for (const Finding& finding : start.findings) note(finding);
+      if (start.failed) fail("a change of stability could not be followed");
       starts_.push_back(std::move(start.point));
     }
   }
@@ -221,9 +218,7 @@ class BoundarySearch {
   void finish() {
     FoundCorners found = find_corners(window_, curves_, options_.trace.tolerance, result_.counts);
     result_.corners = std::move(found.corners);
-    for (const Place& place : found.apart)
-      note({"intersections of curves that belong to different equilibria, which are no corners",
-            window_.text(place)});
+    for (const Finding& finding : found.findings) note(finding);
     result_.notes = told(findings_);
     for (const FollowedCurve& followed : curves_) {
       BoundaryCurve curve;

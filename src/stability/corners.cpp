@@ -104,7 +104,7 @@ class CornerFinder {
   FoundCorners found() && {
     // At a Takens-Bogdanov point the curve of pairs touches the curve of divergence. An intersection of these
     // two curves close to it is the same point.
-    FoundCorners result{{}, std::move(apart_)};
+    FoundCorners result{{}, std::move(findings_)};
     for (const Corner& corner : corners_) {
       const bool touches =
           corner.kind == CornerKind::intersection &&
@@ -144,7 +144,9 @@ class CornerFinder {
         const Place t = (Place(static_cast<double>(k), static_cast<double>(l)) + *shares) / pieces;
         const PlaceGuess first_guess = guess_at(a, t[0]);
         if (!same_equilibrium(first_guess, guess_at(b, t[1]))) {
-          apart_.push_back(first_guess.place);
+          findings_.push_back(
+              {"intersections of curves that belong to different equilibria, which are no corners",
+               window_.text(first_guess.place)});
         } else if (!locate(a, b, t)) {
           locate_on_dense(a, b, t);
         }
@@ -240,7 +242,7 @@ class CornerFinder {
   RunCounts& counts_;
   std::vector<std::vector<Chain>> chains_;
   std::vector<Corner> corners_;  ///< with scaled places; found() converts them
-  std::vector<Place> apart_;
+  std::vector<Finding> findings_;
 };
 
 }  // namespace

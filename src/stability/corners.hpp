@@ -8,7 +8,7 @@ namespace eigentrail {
 
 struct FoundCorners {
   std::vector<Corner> corners;  ///< places in the parameters' units
-  std::vector<Place> apart;     ///< scaled places where curves of different equilibria intersect
+  std::vector<Finding> findings;
 };
 
 /// All corners of the curves, intersections of a curve with itself included. Intersections are corrected by

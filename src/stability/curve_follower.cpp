@@ -304,8 +304,10 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
   const BoundaryFunction function = function_of(seed.kind, options);
   const Situation there = correct_seed(window, seed, function, start.counts);
   if (!there.computed()) {
-    start.failure =
-        boundary_name(seed.kind) + " near " + window.text(seed.place) + ": " + there.point.message;
+    start.failed = true;
+    start.findings.push_back(
+        {"changes of stability that could not be followed",
+         boundary_name(seed.kind) + " near " + window.text(seed.place) + ": " + there.point.message});
     return start;
   }
   const double tau = there.functions(0, 0).real();
@@ -326,10 +328,10 @@ CurveStart start_curve(const Window& window, const BoundaryOptions& options, con
   // Damped modes do not meet; the curve would go on where their mean is no mode.
   if (start.point->functions.row(0).cwiseAbs().maxCoeff() <= flat * size) return start;
   start.point.reset();
-  start.remarked = there.place;
-  start.remark =
-      "onset of flutter without damping, beside which modes are damped; as damping vanishes, the "
-      "boundary may have another limit";
+  start.findings.push_back(
+      {"onset of flutter without damping, beside which modes are damped; as damping vanishes, the "
+       "boundary may have another limit",
+       window.text(there.place)});
   return start;
 }
 

@@ -11,9 +11,8 @@ namespace eigentrail {
 
 struct CurveStart {
   std::optional<CurvePoint> point;  ///< empty if no curve begins here
-  std::string failure;              ///< why Newton's method failed, in words; empty if it did not
-  std::string remark;               ///< what the user should know of a place; empty without
-  Place remarked = Place::Zero();   ///< that place, scaled
+  bool failed = false;              ///< Newton's method has failed: a finding says why
+  std::vector<Finding> findings;
   RunCounts counts;
 };
 
