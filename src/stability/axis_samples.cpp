@@ -48,12 +48,8 @@ void add_extrema(const RecordedPath& path, const Judging& judging, std::vector<A
                      [](const AxisSample& a, const AxisSample& b) { return a.at < b.at; });
 }
 
-}  // namespace
-
-double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
-  return std::max(std::abs(s), accuracy.reference);
-}
-
+/// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of
+/// the dense output, at a stored point those by rounding. `s`: the eigenvalues of all modes there.
 Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const PathPosition& at,
                    const ComplexVector& s, const EigenvalueAccuracy& accuracy) {
   Vector doubts(static_cast<Eigen::Index>(block.modes.size()));
@@ -66,6 +62,12 @@ Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const Path
     doubts[i] = exact ? path.rounding_at(at, mode) : accuracy.tolerance * scale_of(s[mode], accuracy);
   }
   return doubts;
+}
+
+}  // namespace
+
+double scale_of(Complex s, const EigenvalueAccuracy& accuracy) {
+  return std::max(std::abs(s), accuracy.reference);
 }
 
 AxisSample axis_sample(const RecordedPath& path, const PathPosition& at, const Judging& judging) {

@@ -18,11 +18,6 @@ struct Judging {
 /// What errors of an eigenvalue are relative to, 1/s.
 double scale_of(Complex s, const EigenvalueAccuracy& accuracy);
 
-/// Error bounds of the eigenvalues of a block at a place, 1/s, in the order of the block's modes: those of
-/// the dense output, at a stored point those by rounding. `s`: the eigenvalues of all modes there.
-Vector uncertainty(const RecordedPath& path, const DenseBlock& block, const PathPosition& at,
-                   const ComplexVector& s, const EigenvalueAccuracy& accuracy);
-
 /// All modes at a place of the dense output or at a stored point.
 AxisSample axis_sample(const RecordedPath& path, const PathPosition& at, const Judging& judging);
 

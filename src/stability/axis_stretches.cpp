@@ -300,22 +300,13 @@ std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vec
   return stretches;
 }
 
-int count_growing(const RecordedPath& path, const AxisStretch& stretch, const PathPosition& at,
-                  const ComplexVector& s, const EigenvalueAccuracy& accuracy) {
+int count_growing(const AxisStretch& stretch, const AxisSample& sample) {
   if (stretch.stability != Stability::unstable) return 0;
-  int count = 0;
-  for (const DenseBlock& block : path.steps[at.step].blocks) {
-    const Vector doubts = uncertainty(path, block, at, s, accuracy);
-    for (std::size_t i = 0; i < block.modes.size(); ++i) {
-      const int mode = block.modes[i];
-      const double growth = s[mode].real();
-      if (!std::isfinite(growth)) continue;
-      const bool doubtful = std::abs(growth) <= doubts[static_cast<Eigen::Index>(i)];
-      const bool grows = std::binary_search(stretch.growing.begin(), stretch.growing.end(), mode);
-      if (doubtful ? grows : growth > 0.0) ++count;
-    }
-  }
-  return std::max(count, 1);
+  const auto grows_on_stretch = [&](int mode) {
+    return std::binary_search(stretch.growing.begin(), stretch.growing.end(), mode);
+  };
+  const auto open = std::count_if(sample.open.begin(), sample.open.end(), grows_on_stretch);
+  return std::max(static_cast<int>(sample.unstable.size()) + static_cast<int>(open), 1);
 }
 
 }  // namespace eigentrail

@@ -9,6 +9,7 @@
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
 #include "eigentrail/projection/project.hpp"
+#include "stability/axis_samples.hpp"
 #include "stability/second_parameter.hpp"
 
 namespace eigentrail {
@@ -54,7 +55,7 @@ constexpr double on_cut = 1e-9;
 struct LineTrace {
   RecordedPath path;
   std::vector<AxisStretch> stretches;
-  EigenvalueAccuracy accuracy;
+  Judging judging;
   std::vector<bool> complete;  ///< per step: whether all modes are followed
 };
 
@@ -131,19 +132,15 @@ double margin(const ComplexVector& s, Stability stability) {
   return stability == Stability::stable ? std::max(0.0, -fastest) : std::min(0.0, -fastest);
 }
 
-/// The stretch of a place with the parameter value `p`. On a cut: the one of its two stretches that has fewer
+/// The stretch of a sample at the parameter value `p`. On a cut: the one of its two stretches that has fewer
 /// growing modes.
-const AxisStretch* stretch_at(const LineTrace& line, const PathPosition& at, double p,
-                              const ComplexVector& s) {
+const AxisStretch* stretch_at(const LineTrace& line, const AxisSample& sample, double p) {
   const auto here = std::find_if(line.stretches.begin(), line.stretches.end(),
-                                 [&at](const AxisStretch& stretch) { return at <= stretch.to.at; });
+                                 [&](const AxisStretch& stretch) { return sample.at <= stretch.to.at; });
   if (here == line.stretches.end()) return nullptr;
   const double near = on_cut * (line.path.highest() - line.path.lowest());
-  const auto growing = [&](const AxisStretch& stretch) {
-    return count_growing(line.path, stretch, at, s, line.accuracy);
-  };
   const auto fewer = [&](const AxisStretch* best, const AxisStretch& other) {
-    return growing(other) < growing(*best) ? &other : best;
+    return count_growing(other, sample) < count_growing(*best, sample) ? &other : best;
   };
   const AxisStretch* best = &*here;
   if (here->to.on_axis && std::abs(p - here->to.p) <= near && here + 1 != line.stretches.end())
@@ -162,10 +159,11 @@ void fill_cell(const LineTrace& trace, double p, std::size_t cell, MapLine& line
     ++line.doubtful_cells;
     return;
   }
-  const ComplexVector s = trace.path.eigenvalues_at(at);
-  const AxisStretch* stretch = stretch_at(trace, at, p, s);
+  const AxisSample sample = axis_sample(trace.path, at, trace.judging);
+  const AxisStretch* stretch = stretch_at(trace, sample, p);
   if (stretch == nullptr) return;
-  line.unstable[cell] = count_growing(trace.path, *stretch, at, s, trace.accuracy);
+  const ComplexVector s = trace.path.eigenvalues_at(at);
+  line.unstable[cell] = count_growing(*stretch, sample);
   line.margin[cell] = margin(s, stretch->stability);
   line.damping_ratio[cell] = least_damping_ratio(s);
   line.marginal_cells += stretch->stability == Stability::marginal ? 1 : 0;
@@ -284,8 +282,10 @@ MapLine map_line(const MapSetup& setup, double second, const std::vector<double>
   line.n_independent = result.n_independent;
   line.counts = result.counts;
 
-  LineTrace traced{recorder.path(), {}, {options.tolerance, result.s_ref}, {}};
-  traced.stretches = axis_stretches(traced.path, result.events, traced.accuracy);
+  const EigenvalueAccuracy accuracy{options.tolerance, result.s_ref};
+  LineTrace traced{recorder.path(), {}, {}, {}};
+  traced.judging = {accuracy, permanence_of_modes(traced.path, accuracy)};
+  traced.stretches = axis_stretches(traced.path, result.events, accuracy);
   const bool all_followed = result.n_modes == result.n_available;
   traced.complete = all_followed ? complete_steps(traced.path, expected, result.s_ref)
                                  : std::vector<bool>(traced.path.steps.size(), true);

@@ -76,10 +76,9 @@ struct EigenvalueAccuracy {
 std::vector<AxisStretch> axis_stretches(const RecordedPath& path, const std::vector<Event>& events,
                                         const EigenvalueAccuracy& accuracy);
 
-/// Number of growing modes at a place of the stretch with the eigenvalues `s`. A mode
-/// grows if Re s > 0. Where |Re s| is within the error of the dense output, a mode counts as growing if it
-/// grows on the stretch. The result is 0 if the stretch is not unstable, and at least 1 if it is.
-int count_growing(const RecordedPath& path, const AxisStretch& stretch, const PathPosition& at,
-                  const ComplexVector& s, const EigenvalueAccuracy& accuracy);
+/// Number of growing modes at a place of the stretch, of which a sample was taken. A mode whose Re s is
+/// within its error bound counts as growing if it grows on the stretch. The result is 0 if the stretch is not
+/// unstable, and at least 1 if it is.
+int count_growing(const AxisStretch& stretch, const AxisSample& sample);
 
 }  // namespace eigentrail
