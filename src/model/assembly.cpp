@@ -109,8 +109,7 @@ class MovedTriples {
 };
 
 RecordedEquations record_condition(const MultibodyData& data, const TrimCondition& trim) {
-  if (const auto* place = std::get_if<TrimPlace>(&trim.quantity)) return record_equation(data, *place);
-  if (const auto* angle = std::get_if<TrimAngle>(&trim.quantity)) return record_equation(data, *angle);
+  if (const auto* row = std::get_if<ConstraintRow>(&trim.quantity)) return record_equation(data, *row);
   const TrimLoad& load = std::get<TrimLoad>(trim.quantity);
   return record_equations(data, load.elements, load.constraints);
 }
@@ -272,10 +271,10 @@ EvaluationFault Assembly::condition(std::size_t trim, AssemblyWork<Real>& work,
       value -= w.dot(Vec3<LongSeries>(force(3 * triple), force(3 * triple + 1), force(3 * triple + 2)));
     });
     value *= load->motion.factor;
+    value -= work.values.number(own.target.slot);
   } else {
     for (int k = 0; k <= order; ++k) value[k] = work.part.constraint(0, k);
   }
-  value -= work.values.number(own.target.slot);
   using std::isfinite;
   for (int k = 0; k <= order; ++k) {
     if (!isfinite(value[k]) && fault.source.empty()) fault.source = "the trim condition " + own.text;

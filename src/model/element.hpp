@@ -51,11 +51,6 @@ struct Place {
   bool moves() const { return !terms.empty(); }
 };
 
-/// A coordinate axis: 0 x, 1 y, 2 z.
-struct Axis {
-  int index = 0;
-};
-
 /// An unknown u that belongs to an element, of first order: elongation of a dashpot, lag of the air. An
 /// element lists them in `static constexpr std::array states`. Its force() reads at.state(i) and
 /// at.state_rate(i), and adds with at.add_to_state(i, r) the right side of the equation 0 = r(x, u, u') of

@@ -10,8 +10,9 @@ namespace eigentrail {
 
 // Conditions at the equilibrium that determine trimmed parameters: quantity = target.
 //
-// Places and angles follow from the coordinates alone. A force or moment is the virtual work of some elements
-// and constraints on a virtual motion w(x) of triples, a translation or rotation of unit amount:
+// Places and angles follow from the coordinates alone: such a condition is a row as those of constraints,
+// whose offset is the target. A force or moment is the virtual work of some elements and constraints on a
+// virtual motion w(x) of triples, a translation or rotation of unit amount:
 //
 //     quantity = w . (f - A^T lambda),   w = e at places in a translation along e,
 //                                        w = e x (x - centre) at places, e x d at directions in a rotation
@@ -34,21 +35,9 @@ struct TrimLoad {
   VirtualMotion motion;
 };
 
-/// Coordinate of a place, m.
-struct TrimPlace {
-  Place place;
-  Axis axis;
-};
-
-/// Angle of a joint, rad, within half a turn of that of the guess.
-struct TrimAngle {
-  HingeAngle angle;
-  std::vector<Place> arguments;  ///< its directions that move
-};
-
 struct TrimCondition {
   int parameter = -1;  ///< index of the unknown
-  std::variant<TrimLoad, TrimPlace, TrimAngle> quantity;
+  std::variant<TrimLoad, ConstraintRow> quantity;
   Quantity target;
   std::string text;  ///< the condition as the scene states it
 };

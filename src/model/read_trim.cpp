@@ -5,7 +5,6 @@
 
 #include "core/texts.hpp"
 #include "eigentrail/core/text.hpp"
-#include "model/add_element.hpp"
 
 namespace eigentrail {
 namespace {
@@ -64,6 +63,7 @@ class TrimReader {
                  "no quantity is called '" + parts.quantity + "'; there are " + list_of_quantities());
     trim.quantity = quantity(table, parts);
     trim.target = draft_.quantity(target(table, parts.target, kind->unit));
+    if (auto* row = std::get_if<ConstraintRow>(&trim.quantity)) row->offset = trim.target;
     table.finish();
     return trim;
   }
@@ -101,7 +101,7 @@ class TrimReader {
                      [&](TableReader& part, const char* key) { return part.expression(key, unit); });
   }
 
-  std::variant<TrimLoad, TrimPlace, TrimAngle> quantity(TableReader& table, const ConditionText& parts) {
+  std::variant<TrimLoad, ConstraintRow> quantity(TableReader& table, const ConditionText& parts) {
     const std::string& name = parts.arguments[0];
     const bool spring = parts.quantity == "moment" && has_label<TorsionalSpring>(name);
     const bool has_axis =
@@ -113,16 +113,17 @@ class TrimReader {
       return draft_.rotor && !is_inflow(name) ? thrust_of_blades(table, name) : thrust(table, name);
     if (parts.quantity == "angle") return angle(table, name);
     if (spring) return spring_moment(name);
-    const Axis axis = read_axis(table, parts.arguments[1]);
-    if (parts.quantity == "position") return TrimPlace{place(table, name), axis};
+    const int axis = read_axis(table, parts.arguments[1]);
+    if (parts.quantity == "position") return ConstraintRow{{place(table, name), {}}, {}, axis, {}};
     return load(table, name, axis, parts.quantity == "moment");
   }
 
-  static Axis read_axis(TableReader& table, const std::string& name) {
+  /// 0 x, 1 y, 2 z.
+  static int read_axis(TableReader& table, const std::string& name) {
     const std::size_t axis = std::string_view("xyz").find(name);
     if (name.size() != 1 || axis == std::string_view::npos)
       table.fail("condition", "expected the axis x, y or z, found \"" + name + "\"");
-    return {static_cast<int>(axis)};
+    return static_cast<int>(axis);
   }
 
   Place place(TableReader& table, const std::string& name) {
@@ -164,7 +165,7 @@ class TrimReader {
                      (names.empty() ? "; force(strips, axis) needs none" : "; " + suggestion(name, names)));
     }
     take<Inflow>(name, load);
-    load.motion.axis = fixed_axis({0});
+    load.motion.axis = fixed_axis(0);
     load.motion.factor = -1.0;
     return load;
   }
@@ -178,7 +179,7 @@ class TrimReader {
                                   "' are not on the blade of [rotor]; expected force(" + name +
                                   ", z), of the support");
     move_all(load.motion);
-    load.motion.axis = fixed_axis({2});
+    load.motion.axis = fixed_axis(2);
     load.motion.factor = draft_.rotor->blades;
     return load;
   }
@@ -204,15 +205,16 @@ class TrimReader {
     for (const BodyDraft& body : draft_.bodies) motion.places.push_back(body.triple);
   }
 
-  TrimAngle angle(TableReader& table, const std::string& name) {
+  /// Within half a turn of the angle of the guess.
+  ConstraintRow angle(TableReader& table, const std::string& name) {
     std::vector<std::string> names;
     for (const auto& [label, motions] : draft_.joints) {
       if (motions.angles.size() == 1) names.push_back(label);
     }
     index_of(name, names, table, "condition", "joint with one angle (revolute, cylindrical)");
-    TrimAngle result{draft_.joints.at(name).angles.front(), {}};
-    ArgumentCollector(result.arguments).joint("", result.angle, "");
-    return result;
+    ConstraintRow row;
+    row.coupled = {{draft_.quantity(1.0), draft_.joints.at(name).angles.front(), false}};
+    return row;
   }
 
   /// The moment of a torsional spring in the direction of growing angles, on the side that turns.
@@ -228,7 +230,7 @@ class TrimReader {
     return load;
   }
 
-  TrimLoad load(TableReader& table, const std::string& name, Axis axis, bool moment) {
+  TrimLoad load(TableReader& table, const std::string& name, int axis, bool moment) {
     TrimLoad load;
     load.motion.axis = fixed_axis(axis);
     if (!moment && take_strips(name, load)) {
@@ -333,9 +335,7 @@ class TrimReader {
     return true;
   }
 
-  Place fixed_axis(Axis axis) {
-    return draft_.fixed_place(unit_vector(static_cast<std::size_t>(axis.index)));
-  }
+  Place fixed_axis(int axis) { return draft_.fixed_place(unit_vector(static_cast<std::size_t>(axis))); }
 
   Draft& draft_;
   const std::vector<InflowDraft>& inflows_;

@@ -236,7 +236,8 @@ Recorded record_coupling(ElementView<Recorded>& at, const ConstraintRow& row, co
   return sum;
 }
 
-void record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) {
+/// Records a row with this index; the result has its forces.
+ElementView<Recorded> record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) {
   ConstraintRow own = row;
   std::vector<Place> arguments;
   ConstraintRow::for_each_place(own, [&](Place& place) {
@@ -248,18 +249,7 @@ void record_row(ElementRecorder& recorder, const ConstraintRow& row, int index) 
   const Recorded lambda = recorder.multiplier(index);
   recorder.set_residual(own.coupled.empty() ? record_product(at, own, lambda)
                                             : record_coupling(at, own, lambda));
-  recorder.set_forces(at);
-}
-
-/// An equation of its own, as a batch of one.
-RecordedEquations single_equation(const MultibodyData& data, ElementRecorder& recorder) {
-  MultibodyData one;
-  one.n_coordinates = data.n_coordinates;
-  one.n_constraints = 1;
-  BatchCollector collector(one);
-  collector.begin(0, "");
-  collector.add(recorder.recorder(), 0);
-  return collector.finish();
+  return at;
 }
 
 }  // namespace
@@ -284,28 +274,23 @@ RecordedEquations record_equations(const MultibodyData& data, const Elements& el
     int index = constraint.first_row;
     for (const ConstraintRow& row : constraint.rows) {
       ElementRecorder recorder(data);
-      record_row(recorder, row, index);
+      recorder.set_forces(record_row(recorder, row, index));
       collector.add(recorder.recorder(), index++);
     }
   }
   return collector.finish();
 }
 
-RecordedEquations record_equation(const MultibodyData& data, const TrimPlace& place) {
+RecordedEquations record_equation(const MultibodyData& data, const ConstraintRow& row) {
   ElementRecorder recorder(data);
-  Place own = place.place;
-  own.argument = 0;
-  const ElementView<Recorded> at = recorder.view({own}, 0, 0);
-  recorder.set_residual(at.position(own)[place.axis.index]);
-  return single_equation(data, recorder);
-}
-
-RecordedEquations record_equation(const MultibodyData& data, const TrimAngle& angle) {
-  ElementRecorder recorder(data);
-  const ElementView<Recorded> at = recorder.view(angle.arguments, 0, 0);
-  const detail::AngleAt<Recorded> theta(at, angle.angle);
-  recorder.set_residual(angle_of(theta.sine, theta.cosine));
-  return single_equation(data, recorder);
+  record_row(recorder, row, 0);
+  MultibodyData one;
+  one.n_coordinates = data.n_coordinates;
+  one.n_constraints = 1;
+  BatchCollector collector(one);
+  collector.begin(0, "");
+  collector.add(recorder.recorder(), 0);
+  return collector.finish();
 }
 
 void add_costs(const RecordedEquations& equations, std::vector<Effect>& effects) {

@@ -63,9 +63,8 @@ struct RecordedEquations {
 RecordedEquations record_equations(const MultibodyData& data, const Elements& elements,
                                    const std::vector<Constraint>& constraints);
 
-/// One equation without forces: c is the coordinate of a place or the angle of a joint.
-RecordedEquations record_equation(const MultibodyData& data, const TrimPlace& place);
-RecordedEquations record_equation(const MultibodyData& data, const TrimAngle& angle);
+/// The equation c = 0 of a row alone, without its forces.
+RecordedEquations record_equation(const MultibodyData& data, const ConstraintRow& row);
 
 /// Adds the cost of what is recorded to the effects of a model.
 void add_costs(const RecordedEquations& equations, std::vector<Effect>& effects);

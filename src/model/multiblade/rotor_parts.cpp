@@ -38,11 +38,12 @@ class Touched {
   void numbers(const Numbers&...) {}
 
   void constraint(const Constraint& constraint) {
-    for (const ConstraintRow& row : constraint.rows) {
-      // A single place, not a difference of two, is held in the frame.
-      if (row.coupled.empty() && !row.b && !row.a.second) frame = true;
-      ConstraintRow::for_each_place(row, [this](const Place& one) { place("", one); });
-    }
+    for (const ConstraintRow& one : constraint.rows) row(one);
+  }
+  void row(const ConstraintRow& row) {
+    // A single place, not a difference of two, is held in the frame.
+    if (row.coupled.empty() && !row.b && !row.a.second) frame = true;
+    ConstraintRow::for_each_place(row, [this](const Place& one) { place("", one); });
   }
 
  private:
@@ -146,10 +147,8 @@ class Parts {
 
   void add(const TrimCondition& trim, int index) {
     Touched touched(draft_);
-    if (const auto* place = std::get_if<TrimPlace>(&trim.quantity)) {
-      touched.place("", place->place);
-    } else if (const auto* angle = std::get_if<TrimAngle>(&trim.quantity)) {
-      touched.joint("", angle->angle, "");
+    if (const auto* row = std::get_if<ConstraintRow>(&trim.quantity)) {
+      touched.row(*row);
     } else {
       const TrimLoad& load = std::get<TrimLoad>(trim.quantity);
       load.elements.for_each([&]<class Element>(const std::vector<Placed<Element>>& list, std::size_t) {
