@@ -6,49 +6,35 @@
 namespace eigentrail {
 namespace {
 
-/// A triple of the turned hub depends on a triple of the hub by a multiple of one of these matrices: the mean
-/// of R^T, and its factors of cos(psi) and sin(psi).
-enum class Turn { mean, cosine, sine };
+/// Factors of 1, cos(psi) and sin(psi).
+using Turning = std::array<double, 3>;
 
-/// A factor of the function with index `harmonic` (0: mean, 1: cosine, 2: sine) in the turn of the hub.
-/// Triples are q0, d1, d2, d3.
-struct HubTurn {
-  std::size_t harmonic;
-  int seen, own;  ///< triples: as the blade sees it, and of the hub
-  Turn turn;
-  double factor;
-};
-
-constexpr std::array<HubTurn, 14> hub_turns = {{{0, 0, 0, Turn::mean, 1.0},
-                                                {1, 0, 0, Turn::cosine, 1.0},
-                                                {2, 0, 0, Turn::sine, 1.0},
-                                                {0, 3, 3, Turn::mean, 1.0},
-                                                {1, 3, 3, Turn::cosine, 1.0},
-                                                {2, 3, 3, Turn::sine, 1.0},
-                                                {0, 1, 1, Turn::cosine, 0.5},
-                                                {0, 1, 2, Turn::sine, 0.5},
-                                                {1, 1, 1, Turn::mean, 1.0},
-                                                {2, 1, 2, Turn::mean, 1.0},
-                                                {0, 2, 1, Turn::sine, -0.5},
-                                                {0, 2, 2, Turn::cosine, 0.5},
-                                                {1, 2, 2, Turn::mean, 1.0},
-                                                {2, 2, 1, Turn::mean, -1.0}}};
-
-struct TurnEntry {
-  int row, column;
-  double value;
-};
-
-std::vector<TurnEntry> entries(Turn turn) {
-  switch (turn) {
-    case Turn::mean:
-      return {{2, 2, 1.0}};
-    case Turn::cosine:
-      return {{0, 0, 1.0}, {1, 1, 1.0}};
-    default:
-      return {{0, 1, 1.0}, {1, 0, -1.0}};
-  }
+/// The product without its second harmonic.
+Turning product(const Turning& a, const Turning& b) {
+  return {a[0] * b[0] + 0.5 * (a[1] * b[1] + a[2] * b[2]), a[0] * b[1] + a[1] * b[0],
+          a[0] * b[2] + a[2] * b[0]};
 }
+
+/// An entry of a matrix that depends on the azimuth.
+struct TurningEntry {
+  int row, column;
+  Turning factors;
+};
+
+/// Triples q0, d1, d2 and d3 of the turned hub, by those of the hub.
+constexpr std::array<TurningEntry, 6> turned_triples = {{{0, 0, {1.0, 0.0, 0.0}},
+                                                         {1, 1, {0.0, 1.0, 0.0}},
+                                                         {1, 2, {0.0, 0.0, 1.0}},
+                                                         {2, 1, {0.0, 0.0, -1.0}},
+                                                         {2, 2, {0.0, 1.0, 0.0}},
+                                                         {3, 3, {1.0, 0.0, 0.0}}}};
+
+/// R^T
+constexpr std::array<TurningEntry, 5> turned_axes = {{{0, 0, {0.0, 1.0, 0.0}},
+                                                      {0, 1, {0.0, 0.0, 1.0}},
+                                                      {1, 0, {0.0, 0.0, -1.0}},
+                                                      {1, 1, {0.0, 1.0, 0.0}},
+                                                      {2, 2, {1.0, 0.0, 0.0}}}};
 
 }  // namespace
 
@@ -57,12 +43,13 @@ RotorShares MultibladeMap::blade_shares(std::size_t harmonic) const {
   for (std::size_t i = 0; i < blade.size(); ++i) {
     if (blade[i] >= 0) result[i] = {{blade[i] + static_cast<int>(harmonic) * stride[i], 1.0}};
   }
-  for (const HubTurn& part : hub_turns) {
-    if (part.harmonic != harmonic) continue;
-    for (const TurnEntry& entry : entries(part.turn)) {
-      const auto seen = static_cast<std::size_t>(hub_coordinate + 3 * part.seen + entry.row);
-      const auto own = static_cast<std::size_t>(hub_coordinate + 3 * part.own + entry.column);
-      result[seen].push_back({support[own], part.factor * entry.value});
+  for (const TurningEntry& triple : turned_triples) {
+    for (const TurningEntry& axis : turned_axes) {
+      const Turning factors = product(triple.factors, axis.factors);
+      if (harmonic >= factors.size() || factors[harmonic] == 0.0) continue;
+      const auto seen = static_cast<std::size_t>(hub_coordinate + 3 * triple.row + axis.row);
+      const auto own = static_cast<std::size_t>(hub_coordinate + 3 * triple.column + axis.column);
+      result[seen].push_back({support[own], factors[harmonic]});
     }
   }
   for (const InflowCoordinates& inflow : inflows) {
