@@ -8,7 +8,8 @@ namespace eigentrail {
 // Evaluating Derivatives, 2nd ed., Table 13.2). A series that does not vary along the path has one
 // coefficient.
 
-/// An operand: the coefficients of a series, and whether it varies along the path.
+/// An operand: the coefficients of a series, and whether it varies along the path. Null where an instruction
+/// has none.
 template <class Pack>
 struct Operand {
   const Pack* c = nullptr;
@@ -91,55 +92,41 @@ void Evaluation<Real, Lanes>::run(const Program& program, const std::vector<Func
   using In = Operand<Pack>;
   using Rule = Rules<Pack>;
   for (const Instruction& i : program.instructions) {
-    const auto in = [&](int slot) { return In{series(slot), varies(slot)}; };
-    const In a = in(i.a);
+    const auto in = [&](int slot) { return slot < 0 ? In() : In{series(slot), varies(slot)}; };
+    const In a = in(i.a), b = in(i.b), c = in(i.c), d = in(i.d);
     Pack* const y = series(i.out);
     // Sets the coefficients of the result, which varies if an operand does.
-    const auto set = [&](auto coefficient, const auto&... others) {
-      const bool any = (a.varies || ... || others.varies);
+    const auto set = [&](auto coefficient) {
+      const bool any = a.varies || b.varies || c.varies || d.varies;
       set_varies(i.out, any);
       const int top = any ? order_ : 0;
       for (int k = 0; k <= top; ++k) y[k] = coefficient(k);
     };
     switch (i.op) {
-      case Operator::add: {
-        const In b = in(i.b);
-        set([&](int k) { return Pack(a.at(k) + b.at(k)); }, b);
+      case Operator::add:
+        set([&](int k) { return Pack(a.at(k) + b.at(k)); });
         break;
-      }
-      case Operator::subtract: {
-        const In b = in(i.b);
-        set([&](int k) { return Pack(a.at(k) - b.at(k)); }, b);
+      case Operator::subtract:
+        set([&](int k) { return Pack(a.at(k) - b.at(k)); });
         break;
-      }
       case Operator::negate:
         set([&](int k) { return Pack(-a.c[k]); });
         break;
-      case Operator::multiply: {
-        const In b = in(i.b);
-        set([&](int k) { return Rule::product(a, b, k); }, b);
+      case Operator::multiply:
+        set([&](int k) { return Rule::product(a, b, k); });
         break;
-      }
-      case Operator::multiply_add: {
-        const In b = in(i.b), c = in(i.c);
-        set([&](int k) { return Pack(Rule::product(a, b, k) + c.at(k)); }, b, c);
+      case Operator::multiply_add:
+        set([&](int k) { return Pack(Rule::product(a, b, k) + c.at(k)); });
         break;
-      }
-      case Operator::multiply_behind: {
-        const In b = in(i.b), c = in(i.c);
-        set([&](int k) { return Pack(c.at(k) - Rule::product(a, b, k)); }, b, c);
+      case Operator::multiply_behind:
+        set([&](int k) { return Pack(c.at(k) - Rule::product(a, b, k)); });
         break;
-      }
-      case Operator::multiply_two: {
-        const In b = in(i.b), c = in(i.c), d = in(i.d);
-        set([&](int k) { return Pack(Rule::product(a, b, k) + Rule::product(c, d, k)); }, b, c, d);
+      case Operator::multiply_two:
+        set([&](int k) { return Pack(Rule::product(a, b, k) + Rule::product(c, d, k)); });
         break;
-      }
-      case Operator::divide: {
-        const In b = in(i.b);
-        set([&](int k) { return Rule::quotient(y, a, b, k); }, b);
+      case Operator::divide:
+        set([&](int k) { return Rule::quotient(y, a, b, k); });
         break;
-      }
       default:
         run_function(i, functions);
     }
