@@ -175,6 +175,14 @@ int Draft::read_body(TableReader& table, const std::string& key) {
   return static_cast<int>(index_of(name, names_of(bodies), table, key, "body"));
 }
 
+std::vector<std::string> Draft::joints_with_angles(std::size_t most) const {
+  std::vector<std::string> labels;
+  for (const auto& [label, motions] : joints) {
+    if (!motions.angles.empty() && motions.angles.size() <= most) labels.push_back(label);
+  }
+  return labels;
+}
+
 ExpressionVector Draft::read_direction(TableReader& table, const std::string& key, Carrier& carrier) {
   ExpressionVector along;
   carrier = {};

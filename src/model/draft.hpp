@@ -149,6 +149,8 @@ struct Draft {
   /// carrier.
   ExpressionVector read_direction(TableReader& table, const std::string& key, Carrier& carrier);
   int read_body(TableReader& table, const std::string& key);
+  /// Labels of the joints that have angles, at most so many.
+  std::vector<std::string> joints_with_angles(std::size_t most) const;
 
   /// Components in the frame, at the starting guess, of a direction given in the axes of a carrier; and the
   /// reverse.
@@ -203,10 +205,11 @@ struct Draft {
   Place named_place(TableReader& table, const std::string& key, const std::string& name, Carrier* carrier);
 };
 
+/// The names of a list, or another of their texts.
 template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
+std::vector<std::string> names_of(const std::vector<Named>& all, std::string Named::*name = &Named::name) {
   std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
+  for (const Named& one : all) names.push_back(one.*name);
   return names;
 }
 

@@ -85,10 +85,7 @@ std::vector<ConstraintRow> read_gear(Draft& draft, TableReader& table, JointMoti
   for (const Expression& number : teeth) draft.check_range(table, "teeth", number, Range::positive);
   if (teeth.size() != 2)
     table.fail("teeth", "expected the numbers of two wheels, found " + std::to_string(teeth.size()));
-  std::vector<std::string> names;
-  for (const auto& [label, motions] : draft.joints) {
-    if (motions.angles.size() == 1) names.push_back(label);
-  }
+  const std::vector<std::string> names = draft.joints_with_angles(1);
   const std::vector<std::string> joints = table.texts("joints");
   if (joints.size() != 2) table.fail("joints", "expected two joints, found " + std::to_string(joints.size()));
   for (const std::string& joint : joints)

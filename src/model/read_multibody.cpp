@@ -37,11 +37,8 @@ class FieldReader {
   void joint(std::string_view key_view, HingeAngle& angle, std::string_view) {
     const std::string key(key_view);
     const std::string name = table_.text(key);
-    std::vector<std::string> names;
-    for (const auto& [label, motions] : draft_.joints) {
-      if (!motions.angles.empty()) names.push_back(label);
-    }
-    index_of(name, names, table_, key, "joint with an angle (revolute, universal, cylindrical)");
+    index_of(name, draft_.joints_with_angles(2), table_, key,
+             "joint with an angle (revolute, universal, cylindrical)");
     const std::vector<HingeAngle>& angles = draft_.joints.at(name).angles;
     std::size_t which = 0;
     if (angles.size() > 1) {
@@ -83,15 +80,6 @@ class FieldReader {
   TableReader& table_;
 };
 
-/// The states of an element are coordinates, which the name of the element must tell apart.
-template <class Element>
-void check_own_name(const Draft& draft, const TableReader& table, const std::string& label) {
-  for (const Placed<Element>& other : draft.data.elements.list<Element>()) {
-    if (other.label == label)
-      table.fail("name", "another " + std::string(Element::name) + " is called '" + label + "' already");
-  }
-}
-
 /// Reads all [[name]] tables of one element type.
 template <class Element>
 void read_elements(Draft& draft) {
@@ -100,7 +88,10 @@ void read_elements(Draft& draft) {
     FieldReader fields(draft, table);
     Element::fields(element, fields);
     const std::string label = label_of(table, Element::name, i);
-    if (number_of_states<Element>() > 0) check_own_name<Element>(draft, table, label);
+    // States are coordinates, which the name of the element must tell apart.
+    if (number_of_states<Element>() > 0)
+      check_is_new(table, std::string(Element::name), label,
+                   names_of(draft.data.elements.list<Element>(), &Placed<Element>::label));
     table.finish();
     std::vector<Place> moving;
     ArgumentCollector collector(moving);

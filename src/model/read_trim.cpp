@@ -207,11 +207,8 @@ class TrimReader {
 
   /// Within half a turn of the angle of the guess.
   ConstraintRow angle(TableReader& table, const std::string& name) {
-    std::vector<std::string> names;
-    for (const auto& [label, motions] : draft_.joints) {
-      if (motions.angles.size() == 1) names.push_back(label);
-    }
-    index_of(name, names, table, "condition", "joint with one angle (revolute, cylindrical)");
+    index_of(name, draft_.joints_with_angles(1), table, "condition",
+             "joint with one angle (revolute, cylindrical)");
     ConstraintRow row;
     row.coupled = {{draft_.quantity(1.0), draft_.joints.at(name).angles.front(), false}};
     return row;

@@ -16,8 +16,7 @@ namespace {
 /// The key that a column stands for.
 const FieldHelp& field_of(const TableReader& table, const std::string& column,
                           const std::vector<FieldHelp>& fields) {
-  std::vector<std::string> keys;
-  for (const FieldHelp& field : fields) keys.push_back(field.key);
+  const std::vector<std::string> keys = names_of(fields, &FieldHelp::key);
   const auto found = std::find(keys.begin(), keys.end(), column);
   if (found == keys.end() || column == "file" || column == "stiffness")
     table.fail("file", "column '" + printable(column) + "': no such key; " + suggestion(column, keys));
