@@ -173,7 +173,11 @@ class TrimReader {
   /// The force of the air on all blades of a [rotor] along its axis. Across it their forces cancel.
   TrimLoad thrust_of_blades(TableReader& table, const std::string& name) {
     TrimLoad load;
-    if (!take_strips(name, load)) fail_unknown(table, name, Quantities::strips);
+    if (!take_strips(name, load)) {
+      std::vector<std::string> names = names_of_strips(table, name);
+      for (std::string& inflow : names_of_tables(Inflow::name)) names.push_back(std::move(inflow));
+      index_of(name, names, table, "condition", "strips or inflow");
+    }
     if (!on_blade(load))
       table.fail("condition", "thrust: the strips '" + name +
                                   "' are not on the blade of [rotor]; expected force(" + name +
@@ -238,8 +242,14 @@ class TrimReader {
       if (constraint.label == name && draft_.constraint_labels.contains(name))
         load.constraints.push_back(constraint);
     }
-    if (load.constraints.empty())
-      fail_unknown(table, name, moment ? Quantities::moments : Quantities::forces);
+    if (load.constraints.empty()) {
+      std::vector<std::string> names(draft_.constraint_labels.begin(), draft_.constraint_labels.end());
+      const auto& springs = draft_.data.elements.list<TorsionalSpring>();
+      for (std::string& other :
+           moment ? names_of(springs, &Placed<TorsionalSpring>::label) : names_of_strips(table, name))
+        names.push_back(std::move(other));
+      index_of(name, names, table, "condition", moment ? "joint or torsional spring" : "joint or strips");
+    }
     move_one_side(table, name, moment, load.motion);
     return load;
   }
@@ -281,30 +291,16 @@ class TrimReader {
     throw std::logic_error("a constraint without table: " + name);
   }
 
-  /// What has a force, a moment, or a thrust on a rotor.
-  enum class Quantities { forces, moments, strips };
-
-  [[noreturn]] void fail_unknown(TableReader& table, const std::string& name, Quantities of) {
+  /// Names of all strips. Those whose effect is left out have no force.
+  std::vector<std::string> names_of_strips(TableReader& table, const std::string& name) {
     std::vector<std::string> names;
-    if (of != Quantities::strips)
-      names.assign(draft_.constraint_labels.begin(), draft_.constraint_labels.end());
-    if (of == Quantities::moments) {
-      for (const auto& spring : draft_.data.elements.list<TorsionalSpring>()) names.push_back(spring.label);
-    } else {
-      for (const std::string_view kind : {Strip::name, BladeElement::name}) {
-        for (std::string& strips : names_of_tables(kind)) names.push_back(std::move(strips));
-        if (draft_.is_left_out(kind) && std::find(names.begin(), names.end(), name) != names.end())
-          table.fail("condition", "the " + std::string(kind) + " '" + name +
-                                      "' is left out; leave out the condition, too");
-      }
+    for (const std::string_view kind : {Strip::name, BladeElement::name}) {
+      for (std::string& strips : names_of_tables(kind)) names.push_back(std::move(strips));
+      if (draft_.is_left_out(kind) && std::find(names.begin(), names.end(), name) != names.end())
+        table.fail("condition",
+                   "the " + std::string(kind) + " '" + name + "' is left out; leave out the condition, too");
     }
-    if (of == Quantities::strips) {
-      for (std::string& inflow : names_of_tables(Inflow::name)) names.push_back(std::move(inflow));
-    }
-    const char* what = of == Quantities::moments  ? "no joint or torsional spring"
-                       : of == Quantities::forces ? "no joint or strips"
-                                                  : "no strips or inflow";
-    table.fail("condition", std::string(what) + " is called '" + name + "'; " + suggestion(name, names));
+    return names;
   }
 
   template <class Element>
