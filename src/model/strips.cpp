@@ -52,36 +52,31 @@ void read_strips(Draft& draft, const std::optional<ExpressionVector>& rotation) 
   draft.for_each_table(BladeElement::name, [&](TableReader& table, std::size_t i) {
     const BodyLine line = read_body_line(draft, table, draft.read_body(table, "body"));
     const int strips = read_strip_count(table, usual_strips);
-    const Expression chord = draft.read_number(table, "chord", "m", Range::non_negative);
-    const Expression density = draft.read_number(table, "density", "kg/m^3", Range::non_negative, 1.225);
-    const Expression lift_slope =
-        draft.read_number(table, "lift_slope", "1/rad", Range::any, 2.0 * std::numbers::pi);
-    const Expression drag = draft.read_number(table, "profile_drag", "", Range::non_negative, 0.0);
-    const Expression pitch = draft.read_number(table, "pitch", "rad", Range::any, 0.0);
+    BladeElement strip;
+    strip.chord = draft.quantity(draft.read_number(table, "chord", "m", Range::non_negative));
+    strip.density = draft.quantity(draft.read_number(table, "density", "kg/m^3", Range::non_negative, 1.225));
+    strip.lift_slope =
+        draft.quantity(draft.read_number(table, "lift_slope", "1/rad", Range::any, 2.0 * std::numbers::pi));
+    strip.profile_drag =
+        draft.quantity(draft.read_number(table, "profile_drag", "", Range::non_negative, 0.0));
+    strip.pitch = draft.quantity(draft.read_number(table, "pitch", "rad", Range::any, 0.0));
     const ExpressionVector inflow = draft.read_vector(table, "inflow", "m/s", Range::any, ExpressionVector{});
     const bool stands = draft.stands(draft.bodies[static_cast<std::size_t>(line.body)].triple);
     if (draft.rotor && !stands) check_axial(draft, table, inflow);
+    strip.inflow = draft.vector(inflow);
+    strip.angular_velocity =
+        draft.vector(stands ? ExpressionVector{} : rotation.value_or(ExpressionVector{}));
+    strip.leading = draft.direction_on({line.body, -1}, line.y);
+    strip.lift = draft.direction_on({line.body, -1}, line.z);
     const std::string label = label_of(table, BladeElement::name, i);
     table.finish();
     const ExpressionVector span = line.tip - line.root;
     const Expression length = sqrt(dot(span, span));
-    const Carrier carrier{line.body, -1};
-    int number = 0;
+    int count = 0;
     for (const auto& [at, weight] : gauss_points(strips)) {
-      BladeElement strip;
       strip.point = draft.on_body(line.body, line.root + Expression(at) * span);
-      strip.leading = draft.direction_on(carrier, line.y);
-      strip.lift = draft.direction_on(carrier, line.z);
-      strip.angular_velocity =
-          draft.vector(stands ? ExpressionVector{} : rotation.value_or(ExpressionVector{}));
-      strip.inflow = draft.vector(inflow);
       strip.width = draft.quantity(Expression(weight) * length);
-      strip.chord = draft.quantity(chord);
-      strip.density = draft.quantity(density);
-      strip.lift_slope = draft.quantity(lift_slope);
-      strip.profile_drag = draft.quantity(drag);
-      strip.pitch = draft.quantity(pitch);
-      add_element(draft, strip, label + ", strip " + std::to_string(++number));
+      add_element(draft, strip, label + ", strip " + std::to_string(++count));
     }
   });
 }
