@@ -21,78 +21,61 @@ void for_each_output(Program& program, auto visit) {
   visit(program.residual);
 }
 
-/// Gives registers slots, one after the last use of another: what is computed stays in the cache.
-class SlotAssignment {
- public:
-  SlotAssignment(Program& program, int n_registers)
-      : program_(program),
-        last_use_(static_cast<std::size_t>(n_registers), -1),
-        slots_(last_use_.size(), -1) {}
+constexpr int never_used = -1;
 
-  void run() {
-    const int end = static_cast<int>(program_.instructions.size());
-    const auto use = [&](int reg, int when) {
-      if (reg >= 0) last_use_[static_cast<std::size_t>(reg)] = when;
-    };
-    for (int i = 0; i < end; ++i)
-      for_each_operand(program_.instructions[static_cast<std::size_t>(i)], [&](int reg) { use(reg, i); });
-    for (Instruction& constant : program_.constants) use(constant.out, end);
-    for_each_output(program_, [&](int reg) { use(reg, end); });
-    for (Instruction& constant : program_.constants) define(constant.out);
-    for (auto* inputs : {&program_.numbers, &program_.coordinates}) {
-      for (LocalValue& input : *inputs) define(input.slot);
-    }
-    for (int i = 0; i < end; ++i) assign(program_.instructions[static_cast<std::size_t>(i)], i);
-    for_each_output(program_, [&](int& reg) { replace(reg); });
-    program_.n_slots = n_slots_;
-  }
-
- private:
-  /// A result has no slot of an operand: kernels of series read these while they write.
-  void assign(Instruction& instruction, int i) {
-    std::vector<int> done;
-    for_each_operand(instruction, [&](int& reg) {
-      if (reg >= 0 && last_use_[static_cast<std::size_t>(reg)] == i) done.push_back(reg);
-      replace(reg);
-    });
-    std::sort(done.begin(), done.end());
-    done.erase(std::unique(done.begin(), done.end()), done.end());
-    const int results[2] = {instruction.out, instruction.second};
-    define(instruction.out);
-    if (instruction.second >= 0) define(instruction.second);
-    for (const int reg : done) free_.push_back(slots_[static_cast<std::size_t>(reg)]);
-    for (const int reg : results) {
-      if (reg >= 0 && last_use_[static_cast<std::size_t>(reg)] < 0)
-        free_.push_back(slots_[static_cast<std::size_t>(reg)]);
-    }
-  }
-
-  void define(int& reg) {
-    int slot = n_slots_;
-    if (free_.empty()) {
-      ++n_slots_;
-    } else {
-      slot = free_.back();
-      free_.pop_back();
-    }
-    slots_[static_cast<std::size_t>(reg)] = slot;
-    reg = slot;
-  }
-  void replace(int& reg) const {
-    if (reg >= 0) reg = slots_[static_cast<std::size_t>(reg)];
-  }
-
-  Program& program_;
-  std::vector<int> last_use_;
-  std::vector<int> slots_;
-  std::vector<int> free_;
-  int n_slots_ = 0;
-};
+/// The instruction that uses a register last, by register; the number of instructions for what is wanted in
+/// the end.
+std::vector<int> last_uses(Program& program, int n_registers) {
+  std::vector<int> last_use(static_cast<std::size_t>(n_registers), never_used);
+  int now = 0;
+  const auto use = [&](int reg) {
+    if (reg >= 0) last_use[static_cast<std::size_t>(reg)] = now;
+  };
+  for (; now < static_cast<int>(program.instructions.size()); ++now)
+    for_each_operand(program.instructions[static_cast<std::size_t>(now)], use);
+  for (const Instruction& constant : program.constants) use(constant.out);
+  for_each_output(program, use);
+  return last_use;
+}
 
 }  // namespace
 
+/// A slot is free again after the last use of its register: what is computed stays in the cache. A result has
+/// no slot of an operand: kernels of series read these while they write.
 void assign_slots(Program& program, int n_registers) {
-  SlotAssignment(program, n_registers).run();
+  const int end = static_cast<int>(program.instructions.size());
+  std::vector<int> last_use = last_uses(program, n_registers), slots = last_use, free;
+  const auto last = [&](int reg) -> int& { return last_use[static_cast<std::size_t>(reg)]; };
+  const auto slot = [&](int reg) -> int& { return slots[static_cast<std::size_t>(reg)]; };
+  const auto replace = [&](int& reg) { reg = reg < 0 ? reg : slot(reg); };
+  const auto define = [&](int& reg) {
+    if (free.empty()) free.push_back(program.n_slots++);
+    slot(reg) = free.back();
+    free.pop_back();
+    reg = slot(reg);
+  };
+  for (Instruction& constant : program.constants) define(constant.out);
+  for (auto* inputs : {&program.numbers, &program.coordinates}) {
+    for (LocalValue& input : *inputs) define(input.slot);
+  }
+  for (int i = 0; i < end; ++i) {
+    Instruction& instruction = program.instructions[static_cast<std::size_t>(i)];
+    std::vector<int> done;
+    const auto end_at = [&](int reg, int when) {
+      if (reg < 0 || last(reg) != when) return;
+      last(reg) = end;
+      done.push_back(reg);
+    };
+    for_each_operand(instruction, [&](int reg) { end_at(reg, i); });
+    for_each_operand(instruction, replace);
+    for (int* result : {&instruction.out, &instruction.second}) {
+      if (*result < 0) continue;
+      end_at(*result, never_used);
+      define(*result);
+    }
+    for (const int reg : done) free.push_back(slot(reg));
+  }
+  for_each_output(program, replace);
 }
 
 void Inputs::add(const Inputs& other) {
