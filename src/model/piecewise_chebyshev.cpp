@@ -134,11 +134,9 @@ class Interpolation {
     return Outcome::accepted;
   }
 
-  /// Values at all points of a degree; those of half the degree are known. False if it takes too many calls.
+  /// Values at all points of a degree. False if it takes too many calls.
   bool sample(const ChebyshevPiece& piece, int degree, Matrix& values) {
-    const Matrix known = std::move(values);
     for (int j = 0; j <= degree; ++j) {
-      if (known.size() > 0 && j % 2 == 0) continue;
       const double x = chebyshev_point(j, degree);
       // The ends exactly: neighbouring pieces share them.
       const double p = j == 0        ? piece.to
@@ -146,10 +144,9 @@ class Interpolation {
                                      : 0.5 * (piece.from + piece.to) + 0.5 * (piece.to - piece.from) * x;
       const Vector* value = at(p);
       if (value == nullptr) return false;
-      if (values.size() == 0) values.resize(value->size(), degree + 1);
+      values.resize(value->size(), degree + 1);
       values.col(j) = *value;
     }
-    for (Eigen::Index j = 0; j < known.cols(); ++j) values.col(2 * j) = known.col(j);
     return true;
   }
 

@@ -1,7 +1,6 @@
 #include "model/recorded_equations.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "model/record/recorder.hpp"
 
@@ -112,12 +111,9 @@ class BatchCollector {
 
  private:
   Batch& batch_of(const Record& record) {
-    std::vector<std::size_t>& similar = by_size_[record.operations.size()];
-    for (const std::size_t i : similar) {
-      Batch& batch = equations_.batches[i];
+    for (Batch& batch : equations_.batches) {
       if (batch.kind == kind_ && batch.record == record) return batch;
     }
-    similar.push_back(equations_.batches.size());
     Batch& batch = equations_.batches.emplace_back();
     batch.kind = kind_;
     batch.record = record;
@@ -186,7 +182,6 @@ class BatchCollector {
   }
 
   RecordedEquations equations_;
-  std::unordered_map<std::size_t, std::vector<std::size_t>> by_size_;
   std::size_t kind_ = 0;
 };
 
