@@ -108,7 +108,8 @@ bool is_empty(const PencilSum& sum) {
 }
 
 Contribution contribution_of(const PencilSum& sum, Eigen::Index n) {
-  const auto M = sum.M.terms(n), C = sum.C.terms(n), K = sum.K.terms(n);
+  const auto M = sum.M.terms<SparseMatrix>(n), C = sum.C.terms<SparseMatrix>(n),
+             K = sum.K.terms<SparseMatrix>(n);
   const bool symmetric = all_equal_transposes(C, 1.0);
   return {.inertia = !M.empty(),
           .conservative = !K.empty(),
@@ -151,7 +152,7 @@ std::vector<Effect> rotor_effects(const RotorDraft& rotor, Eigen::Index n) {
 
 /// The sum of all effects that are not left out. Each is multiplied by its strength, if strengths are asked
 /// for.
-AffinePencil<SparseMatrix> pencil_of_effects(RotorDraft& rotor, Eigen::Index n) {
+PencilSum sum_of_effects(RotorDraft& rotor) {
   PencilSum all;
   for (std::size_t i = 0; i < rotor_effect_count; ++i) {
     if (is_empty(rotor.sums[i]) || rotor.draft.is_left_out(words[i].name)) continue;
@@ -161,12 +162,12 @@ AffinePencil<SparseMatrix> pencil_of_effects(RotorDraft& rotor, Eigen::Index n) 
     all.C.add(rotor.sums[i].C, factor);
     all.K.add(rotor.sums[i].K, factor);
   }
-  return {all.M.terms(n), all.C.terms(n), all.K.terms(n)};
+  return all;
 }
 
 /// Up to this size matrices are dense, so that structure that all of them share is found: independent planes
 /// of a symmetric rotor. Larger ones are sparse, and projected where some modes are asked for.
-constexpr Eigen::Index largest_dense_rotor = 150;
+constexpr std::size_t largest_dense_rotor = 150;
 
 /// Reads the [[support]] tables: freedoms of nodes that do not move.
 void read_supports(RotorDraft& rotor) {
@@ -254,25 +255,12 @@ ModelDescription describe(RotorDraft& rotor) {
   return description;
 }
 
-std::vector<AffineTerm<Matrix>> dense(const std::vector<AffineTerm<SparseMatrix>>& terms) {
-  std::vector<AffineTerm<Matrix>> result;
-  for (const AffineTerm<SparseMatrix>& term : terms) {
-    auto& one = result.emplace_back(term.factor, Matrix(term.matrix), term.name);
-    one.table = term.table;
-    one.scale = term.scale;
-  }
-  return result;
-}
-
+template <class Storage>
 std::unique_ptr<Model> family_of(RotorDraft& rotor) {
   const auto n = static_cast<Eigen::Index>(rotor.coordinate_names.size());
-  check_rotor_without(rotor);
-  AffinePencil<SparseMatrix> pencil = pencil_of_effects(rotor, n);
-  ModelDescription description = describe(rotor);
-  if (n > largest_dense_rotor)
-    return std::make_unique<SparseFamily>(std::move(description), std::move(pencil));
-  return std::make_unique<AffineFamily<Matrix>>(
-      std::move(description), AffinePencil<Matrix>{dense(pencil.M), dense(pencil.C), dense(pencil.K)});
+  const PencilSum all = sum_of_effects(rotor);
+  AffinePencil<Storage> pencil{all.M.terms<Storage>(n), all.C.terms<Storage>(n), all.K.terms<Storage>(n)};
+  return std::make_unique<AffineFamily<Storage>>(describe(rotor), std::move(pencil));
 }
 
 }  // namespace
@@ -289,7 +277,9 @@ std::unique_ptr<Model> read_rotor(const Scene& scene, const ModelRequest& reques
     assemble_shafts(rotor);
     read_discs(rotor);
     read_bearings(rotor);
-    return family_of(rotor);
+    check_rotor_without(rotor);
+    if (rotor.coordinate_names.size() > largest_dense_rotor) return family_of<SparseMatrix>(rotor);
+    return family_of<Matrix>(rotor);
   } catch (const ExpressionError& error) {
     throw scene_error(scene, rotor.draft.begun_where, rotor.draft.begun + ": " + error.what());
   }

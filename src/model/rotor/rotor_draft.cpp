@@ -100,8 +100,9 @@ void MatrixSum::add(const MatrixSum& other, const Expression& strength) {
   }
 }
 
-std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
-  std::vector<AffineTerm<SparseMatrix>> result;
+template <class Storage>
+std::vector<AffineTerm<Storage>> MatrixSum::terms(Eigen::Index n) const {
+  std::vector<AffineTerm<Storage>> result;
   for (const Part& one : parts_) {
     std::vector<Eigen::Triplet<double>> entries;
     for (const auto& [at, value] : one.entries) {
@@ -109,11 +110,14 @@ std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index n) const {
     }
     SparseMatrix matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    result.emplace_back(one.factor, std::move(matrix));
+    result.emplace_back(one.factor, Storage(matrix));
     result.back().table = one.table;
     result.back().scale = one.scale;
   }
   return result;
 }
+
+template std::vector<AffineTerm<SparseMatrix>> MatrixSum::terms(Eigen::Index) const;
+template std::vector<AffineTerm<Matrix>> MatrixSum::terms(Eigen::Index) const;
 
 }  // namespace eigentrail

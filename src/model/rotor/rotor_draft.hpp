@@ -33,7 +33,8 @@ class MatrixSum {
   bool empty() const { return parts_.empty(); }
 
   /// The summands, n x n.
-  std::vector<AffineTerm<SparseMatrix>> terms(Eigen::Index n) const;
+  template <class Storage>
+  std::vector<AffineTerm<Storage>> terms(Eigen::Index n) const;
 
  private:
   struct Part {
