@@ -17,19 +17,6 @@
 
 namespace eigentrail {
 
-/// Motion of a section through the air.
-template <class Scalar>
-struct AirFlow {
-  Vec3<Scalar> t, n;  ///< towards the leading edge; direction of lift
-  Scalar forward;     ///< components of U along t and n, m/s
-  Scalar normal;
-  Scalar turn;      ///< rate of pitch, nose up, rad/s
-  Scalar downwash;  ///< of the air through the section at three quarters of the chord, m/s
-  Scalar x, y;      ///< place on the disc of the rotor, in radii; without inflow not used
-
-  Scalar speed_squared() const { return forward * forward + normal * normal; }
-};
-
 /// The disc of a rotor as its sections see it; all in the frame.
 struct RotorDisc {
   std::array<Quantity, 3> centre, axis;
@@ -63,79 +50,83 @@ struct AirSection {
                   self.angular_velocity, self.wind, self.width, self.chord, self.density, self.lift_slope,
                   self.zero_lift, self.speed_of_sound);
   }
+};
 
-  template <class Scalar>
-  AirFlow<Scalar> flow(const ElementView<Scalar>& at) const {
-    AirFlow<Scalar> flow;
-    const Vec3<Scalar> w = at.value(angular_velocity);
-    flow.t = at.position(leading);
-    flow.n = at.position(lift);
-    Vec3<Scalar> U = at.velocity(quarter_chord) + w.cross(at.position(quarter_chord)) - at.value(wind);
-    if (inflow.moves()) {
-      const Vec3<Scalar> from_centre = at.position(quarter_chord) - at.value(disc.centre);
-      const Vec3<Scalar> v = at.position(inflow);
-      flow.x = from_centre.dot(at.value(disc.x));
-      flow.y = from_centre.dot(at.value(disc.y));
-      U += (v[0] + v[1] * flow.x + v[2] * flow.y) * at.value(disc.axis);
+/// A section in moving air: its motion through the air, and what the forces of the air follow from.
+template <class Scalar>
+class AirFlow {
+ public:
+  AirFlow(const AirSection& section, ElementView<Scalar>& at)
+      : t(at.position(section.leading)), n(at.position(section.lift)), section_(section), at_(at) {
+    const Place& quarter_chord = section.quarter_chord;
+    const Vec3<Scalar> w = at.value(section.angular_velocity);
+    Vec3<Scalar> U =
+        at.velocity(quarter_chord) + w.cross(at.position(quarter_chord)) - at.value(section.wind);
+    if (section.inflow.moves()) {
+      const Vec3<Scalar> from_centre = at.position(quarter_chord) - at.value(section.disc.centre);
+      const Vec3<Scalar> v = at.position(section.inflow);
+      x_ = from_centre.dot(at.value(section.disc.x));
+      y_ = from_centre.dot(at.value(section.disc.y));
+      U += (v[0] + v[1] * x_ + v[2] * y_) * at.value(section.disc.axis);
     }
-    flow.forward = U.dot(flow.t);
-    flow.normal = U.dot(flow.n);
-    flow.turn = flow.n.dot(at.velocity(leading) + w.cross(flow.t));
-    flow.downwash = 0.5 * at.value(chord) * flow.turn - flow.normal;
-    return flow;
+    forward = U.dot(t);
+    normal = U.dot(n);
+    turn = n.dot(at.velocity(section.leading) + w.cross(t));
+    downwash = 0.5 * at.value(section.chord) * turn - normal;
   }
 
+  Vec3<Scalar> t, n;  ///< towards the leading edge; direction of lift
+  Scalar forward;     ///< components of U along t and n, m/s
+  Scalar normal;
+  Scalar turn;      ///< rate of pitch, nose up, rad/s
+  Scalar downwash;  ///< of the air through the section at three quarters of the chord, m/s
+
+  Scalar speed_squared() const { return forward * forward + normal * normal; }
+
   /// 1/2 rho c times the width, kg/m.
-  template <class Scalar>
-  Scalar half_mass(const ElementView<Scalar>& at) const {
-    return 0.5 * at.value(density) * at.value(chord) * at.value(width);
+  Scalar half_mass() const {
+    return 0.5 * at_.value(section_.density) * at_.value(section_.chord) * at_.value(section_.width);
   }
 
   /// The factor of Prandtl and Glauert for lift and moment, 1 / sqrt(1 - Mach^2); not a number from the speed
   /// of sound on.
-  template <class Scalar>
-  Scalar compressed(const ElementView<Scalar>& at, const AirFlow<Scalar>& flow, const Scalar& value) const {
-    using std::sqrt;
-    if (speed_of_sound.slot < 0) return value;
-    const Scalar sound = at.value(speed_of_sound);
-    return value / sqrt(1.0 - flow.speed_squared() / (sound * sound));
+  Scalar compressed(const Scalar& value) const {
+    if (section_.speed_of_sound.slot < 0) return value;
+    const Scalar sound = at_.value(section_.speed_of_sound);
+    return value / sqrt(1.0 - speed_squared() / (sound * sound));
   }
 
   /// A coefficient of the polar for a downwash.
-  template <class Scalar>
-  Scalar coefficient(const std::shared_ptr<const TabulatedFactor>& of_polar, const AirFlow<Scalar>& flow,
-                     const Scalar& downwash) const {
-    return of_polar ? apply(*of_polar, angle_of(downwash, flow.forward)) : Scalar(0.0);
+  Scalar coefficient(const std::shared_ptr<const TabulatedFactor>& of_polar, const Scalar& by) const {
+    return of_polar ? apply(*of_polar, angle_of(by, forward)) : Scalar(0.0);
   }
 
   /// Density times circulation times width that a downwash causes, kg/s: 1/2 rho c a (downwash cos alpha_0 -
   /// forward sin alpha_0), or 1/2 rho c c_l |U| of a table.
-  template <class Scalar>
-  Scalar circulation(const ElementView<Scalar>& at, const AirFlow<Scalar>& flow,
-                     const Scalar& downwash) const {
-    using std::cos, std::sin, std::sqrt;
-    const Scalar half = compressed(at, flow, half_mass(at));
-    if (polar) return half * sqrt(flow.speed_squared()) * coefficient(polar->lift, flow, downwash);
-    const Scalar slope = half * at.value(lift_slope);
-    if (zero_lift.slot < 0) return slope * downwash;
-    const Scalar angle = at.value(zero_lift);
-    return slope * (cos(angle) * downwash - sin(angle) * flow.forward);
-  }
-
-  /// Adds a force at the quarter chord, and its thrust to the equations of the inflow.
-  template <class Scalar>
-  void add_air_force(ElementView<Scalar>& at, const AirFlow<Scalar>& flow, const Vec3<Scalar>& force) const {
-    at.add_force(quarter_chord, force);
-    if (!inflow.moves()) return;
-    const Scalar thrust = at.value(disc.blades) * force.dot(at.value(disc.axis));
-    at.add_force(inflow, {thrust, thrust * flow.x, thrust * flow.y});
+  Scalar circulation(const Scalar& by) const {
+    const Scalar half = compressed(half_mass());
+    if (section_.polar) return half * sqrt(speed_squared()) * coefficient(section_.polar->lift, by);
+    const Scalar slope = half * at_.value(section_.lift_slope);
+    if (section_.zero_lift.slot < 0) return slope * by;
+    const Scalar angle = at_.value(section_.zero_lift);
+    return slope * (cos(angle) * by - sin(angle) * forward);
   }
 
   /// The lift of a circulation, normal to U.
-  template <class Scalar>
-  Vec3<Scalar> lift_of(const AirFlow<Scalar>& flow, const Scalar& circulation) const {
-    return circulation * (flow.forward * flow.n - flow.normal * flow.t);
+  Vec3<Scalar> lift_of(const Scalar& circulation) const { return circulation * (forward * n - normal * t); }
+
+  /// Adds a force at the quarter chord, and its thrust to the equations of the inflow.
+  void add_force(const Vec3<Scalar>& force) {
+    at_.add_force(section_.quarter_chord, force);
+    if (!section_.inflow.moves()) return;
+    const Scalar thrust = at_.value(section_.disc.blades) * force.dot(at_.value(section_.disc.axis));
+    at_.add_force(section_.inflow, {thrust, thrust * x_, thrust * y_});
   }
+
+ private:
+  const AirSection& section_;
+  ElementView<Scalar>& at_;
+  Scalar x_, y_;  ///< place on the disc of the rotor, in radii; without inflow not used
 };
 
 }  // namespace eigentrail

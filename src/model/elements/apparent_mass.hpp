@@ -22,10 +22,10 @@ struct ApparentMass : AirSection {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    const AirFlow<Scalar> air = flow(at);
+    const AirFlow<Scalar> air(*this, at);
     const Vec3<Scalar> w = at.value(angular_velocity);
     const Scalar c = at.value(chord);
-    const Scalar mass = 0.5 * std::numbers::pi * c * half_mass(at);
+    const Scalar mass = 0.5 * std::numbers::pi * c * air.half_mass();
     const auto seen_at_rest = [&](const Place& place) -> Vec3<Scalar> {
       return at.acceleration(place) + 2.0 * w.cross(at.velocity(place)) +
              w.cross(w.cross(at.position(place)).eval());

@@ -37,7 +37,6 @@ struct BladeElement {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    using std::cos, std::sin, std::sqrt;
     const Vec3<Scalar> w = at.value(angular_velocity);
     const Vec3<Scalar> U = at.velocity(point) + w.cross(at.position(point)) - at.value(inflow);
     const Vec3<Scalar> t0 = at.position(leading);

@@ -27,8 +27,6 @@ struct FollowerForce {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    using std::cos;
-    using std::sin;
     const Vec3<Scalar> d = unit<Scalar>(at.position(to) - at.position(from));
     const Vec3<Scalar> k = unit(at.value(axis));
     const Scalar c = cos(at.value(angle));

@@ -46,7 +46,6 @@ struct Inflow {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    using std::sqrt;
     constexpr double pi = std::numbers::pi;
     const Vec3<Scalar> v = at.position(velocity);
     const Vec3<Scalar> rate = at.velocity(velocity);
@@ -69,7 +68,6 @@ struct Inflow {
   /// Prandtl's factor for the speed `through` the disc and the rotation W.
   template <class Scalar>
   Scalar tip_loss(const ElementView<Scalar>& at, const Scalar& through, const Scalar& W) const {
-    using std::acos, std::exp, std::sqrt;
     const Scalar r = at.value(at_radius);
     const Scalar sine = through / sqrt(through * through + W * W * r * r);
     return 2.0 / std::numbers::pi * acos(exp(-at.value(to_the_tip) / sine));

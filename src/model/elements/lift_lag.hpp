@@ -36,8 +36,7 @@ struct LiftLag : AirSection {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    using std::sqrt;
-    const AirFlow<Scalar> air = flow(at);
+    AirFlow<Scalar> air(*this, at);
     const Scalar time = 0.5 * at.value(chord) / sqrt(air.speed_squared());
     Scalar effective = air.downwash;
     for (int i = 0; i < 2; ++i) {
@@ -46,8 +45,8 @@ struct LiftLag : AirSection {
       effective -= missing;
       at.add_to_state(i, missing - time / at.value(rates[index]) * at.state_rate(i));
     }
-    const Scalar change = circulation(at, air, effective) - circulation(at, air, air.downwash);
-    add_air_force(at, air, lift_of(air, change));
+    const Scalar change = air.circulation(effective) - air.circulation(air.downwash);
+    air.add_force(air.lift_of(change));
   }
 };
 

@@ -28,22 +28,21 @@ struct Strip : AirSection {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    using std::sqrt;
-    const AirFlow<Scalar> air = flow(at);
-    Vec3<Scalar> sum = lift_of(air, circulation(at, air, air.downwash));
-    const Scalar half = half_mass(at);
+    AirFlow<Scalar> air(*this, at);
+    Vec3<Scalar> sum = air.lift_of(air.circulation(air.downwash));
+    const Scalar half = air.half_mass();
     Scalar c_d(0.0), c_m(0.0);
     if (polar) {
-      c_d = coefficient(polar->drag, air, air.downwash);
-      c_m = coefficient(polar->moment, air, air.downwash);
+      c_d = air.coefficient(polar->drag, air.downwash);
+      c_m = air.coefficient(polar->moment, air.downwash);
     }
     if (drag.slot >= 0) c_d += at.value(drag);
     if (moment.slot >= 0) c_m += at.value(moment);
     if (polar || drag.slot >= 0)
       sum -= half * c_d * sqrt(air.speed_squared()) * (air.forward * air.t + air.normal * air.n);
-    add_air_force(at, air, sum);
+    air.add_force(sum);
     if (polar || moment.slot >= 0) {
-      const Scalar nose_up = compressed(at, air, half * at.value(chord) * c_m * air.speed_squared());
+      const Scalar nose_up = air.compressed(half * at.value(chord) * c_m * air.speed_squared());
       at.add_force(leading, nose_up * air.n);
     }
   }
