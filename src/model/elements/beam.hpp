@@ -43,33 +43,15 @@ struct BeamPoint {
     visit.numbers(self.stiffness, self.width);
   }
 
-  /// Gamma and kappa as they are, without those of the unloaded beam.
-  template <class Scalar>
-  Strain<Scalar> strain(const ElementView<Scalar>& at) const {
-    Strain<Scalar> e;
-    const Vec3<Scalar> along = at.position(slope);
+  /// Gamma and kappa as they are, without those of the unloaded beam, or their rates: `product` gives that of
+  /// two vectors, or its rate.
+  auto strain_of(auto product) const {
+    Strain<decltype(product(slope, slope))> e;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
-      e[i] = at.position(directors[i]).dot(along);
-      e[3 + i] = 0.5 * (at.position(directors[k]).dot(at.position(rates[j])) -
-                        at.position(directors[j]).dot(at.position(rates[k])));
-    }
-    return e;
-  }
-
-  /// Their rates.
-  template <class Scalar>
-  Strain<Scalar> strain_rate(const ElementView<Scalar>& at) const {
-    Strain<Scalar> e;
-    const auto product_rate = [&](const Place& a, const Place& b) {
-      return Scalar(at.velocity(a).dot(at.position(b)) + at.position(a).dot(at.velocity(b)));
-    };
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const std::size_t k = (i + 2) % 3;
-      e[i] = product_rate(directors[i], slope);
-      e[3 + i] = 0.5 * (product_rate(directors[k], rates[j]) - product_rate(directors[j], rates[k]));
+      e[i] = product(directors[i], slope);
+      e[3 + i] = 0.5 * (product(directors[k], rates[j]) - product(directors[j], rates[k]));
     }
     return e;
   }
@@ -124,7 +106,8 @@ struct BeamSection : BeamPoint {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    Strain<Scalar> e = strain(at);
+    Strain<Scalar> e = strain_of(
+        [&at](const Place& a, const Place& b) { return Scalar(at.position(a).dot(at.position(b))); });
     for (std::size_t i = 0; i < 6; ++i) {
       if (unloaded[i].slot >= 0) e[i] -= at.value(unloaded[i]);
     }
@@ -150,20 +133,19 @@ struct BeamDamping : BeamPoint {
 
   template <class Scalar>
   void force(ElementView<Scalar>& at) const {
-    Strain<Scalar> e = strain_rate(at);
+    Strain<Scalar> e = strain_of([&at](const Place& a, const Place& b) {
+      return Scalar(at.velocity(a).dot(at.position(b)) + at.position(a).dot(at.velocity(b)));
+    });
+    const auto multiply_by_roots = [&](Strain<Scalar>& list) {
+      for (std::size_t i = 0; i < 6; ++i) {
+        if (roots[i].slot >= 0) list[i] *= at.value(roots[i]);
+      }
+    };
     for (Scalar& rate : e) rate *= at.value(time);
-    multiply_by_roots(at, e);
+    multiply_by_roots(e);
     Strain<Scalar> s = stress(at, e);
-    multiply_by_roots(at, s);
+    multiply_by_roots(s);
     add_stress(at, s);
-  }
-
- private:
-  template <class Scalar>
-  void multiply_by_roots(const ElementView<Scalar>& at, Strain<Scalar>& e) const {
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (roots[i].slot >= 0) e[i] *= at.value(roots[i]);
-    }
   }
 };
 
