@@ -60,10 +60,12 @@ std::optional<TableArgument> linear_argument(const Expression& expression) {
 /// The part of the matrices that comes from one table, at each of its rows.
 struct OneTable {
   TableArgument argument;
-  std::vector<double> values;       ///< of the argument
-  std::vector<SamplePiece> pieces;  ///< one
-  std::array<PencilSamples, 3> samples;
+  std::shared_ptr<const SamplePiece> piece;
+  std::vector<SamplePiece> pieces = {*piece};
+  std::array<PencilSamples, 3> samples = {};
   std::unique_ptr<InterpolationErrors> errors = nullptr;
+
+  const std::vector<double>& values() const { return piece->interpolant.nodes(); }  ///< of the argument
 };
 
 class TableErrors final : public SampleErrors {
@@ -71,7 +73,7 @@ class TableErrors final : public SampleErrors {
   explicit TableErrors(std::vector<std::unique_ptr<OneTable>> tables)
       : parameter_(tables.front()->argument.parameter), tables_(std::move(tables)) {
     for (const auto& table : tables_) {
-      for (const double value : table->values) values_.push_back(table->argument.parameter_at(value));
+      for (const double value : table->values()) values_.push_back(table->argument.parameter_at(value));
     }
     std::sort(values_.begin(), values_.end());
     values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
@@ -86,7 +88,7 @@ class TableErrors final : public SampleErrors {
     const Vector none = Vector::Zero(count);
     SampleBounds sum{none, none, none, none, none};
     for (const auto& table : tables_) {
-      const std::size_t own_gap = gap_of(table->values, table->argument.of(middle));
+      const std::size_t own_gap = gap_of(table->values(), table->argument.of(middle));
       const SampleBounds one = table->errors->between(own_gap, triples);
       sum.smooth += one.smooth;
       sum.rough += one.rough;
@@ -108,7 +110,7 @@ class TableErrors final : public SampleErrors {
     const OneTable& first = *tables_.front();
     const TableArgument& argument = first.argument;
     const auto [low, high] = std::minmax(argument.of(from), argument.of(to));
-    const std::size_t own_gap = gap_of(first.values, 0.5 * (low + high));
+    const std::size_t own_gap = gap_of(first.values(), 0.5 * (low + high));
     return argument.parameter_at(first.errors->place_of_largest_error(own_gap, low, high));
   }
 
@@ -120,17 +122,11 @@ class TableErrors final : public SampleErrors {
 
 /// The table with these rows over this argument among those that were found; a new one if there is none yet.
 OneTable& table_with(std::vector<std::unique_ptr<OneTable>>& tables,
-                     std::vector<std::shared_ptr<const SamplePiece>>& known,
                      const std::shared_ptr<const SamplePiece>& piece, const TableArgument& argument) {
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    if (known[i] == piece && tables[i]->argument == argument) return *tables[i];
+  for (const auto& table : tables) {
+    if (table->piece == piece && table->argument == argument) return *table;
   }
-  known.push_back(piece);
-  auto table = std::make_unique<OneTable>();
-  table->argument = argument;
-  table->values = piece->interpolant.nodes();
-  table->pieces = {*piece};
-  return *tables.emplace_back(std::move(table));
+  return *tables.emplace_back(std::make_unique<OneTable>(OneTable{argument, piece}));
 }
 
 /// Adds a term to the samples of a coefficient of s^2 M + s C + K.
@@ -145,7 +141,6 @@ void add_samples(PencilSamples& samples, const AffineTerm<Matrix>& term) {
 /// not a linear function of one parameter, the same for all. The bounds of the tables add up.
 std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pencil, Eigen::Index n) {
   std::vector<std::unique_ptr<OneTable>> tables;
-  std::vector<std::shared_ptr<const SamplePiece>> known;
   std::size_t coefficient = 0;
   for (const auto* terms : {&pencil.M, &pencil.C, &pencil.K}) {
     for (const AffineTerm<Matrix>& term : *terms) {
@@ -153,7 +148,7 @@ std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pen
       const auto argument = linear_argument(term.factor);
       if (!argument || (!tables.empty() && tables.front()->argument.parameter != argument->parameter))
         return nullptr;
-      add_samples(table_with(tables, known, term.table->piece(), *argument).samples[coefficient], term);
+      add_samples(table_with(tables, term.table->piece(), *argument).samples[coefficient], term);
     }
     ++coefficient;
   }
@@ -164,7 +159,7 @@ std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pen
       samples.power = 2 - i;
       if (samples.samples.empty()) samples.samples = {Matrix::Zero(n, n)};
     }
-    table->errors = std::make_unique<InterpolationErrors>(table->argument.parameter, table->values,
+    table->errors = std::make_unique<InterpolationErrors>(table->argument.parameter, table->values(),
                                                           table->samples, table->pieces);
   }
   return std::make_unique<TableErrors>(std::move(tables));

@@ -151,10 +151,6 @@ GapEstimators gap_estimators(const SamplePiece& piece, const GapWindow& window,
   GapEstimators result;
   const std::size_t n = window.nodes.size();
   if (n == 1) {
-    for (Matrix& difference : result.differences) difference.resize(1, 0);
-    result.leave_one_out.resize(1, 0);
-    result.nearby.resize(1, 0);
-    result.rival.resize(1, 0);
     result.weights = Vector::Ones(1);
     return result;
   }
