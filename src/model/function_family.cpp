@@ -8,6 +8,7 @@
 #include "core/transposition.hpp"
 #include "eigentrail/core/series.hpp"
 #include "eigentrail/core/text.hpp"
+#include "model/family_tables.hpp"
 #include "model/piecewise_chebyshev.hpp"
 #include "model/series_sum.hpp"
 
@@ -21,15 +22,18 @@ constexpr double pieces_per_feature = 32.0;
 /// How far beside the range, relative to its length, values of the parameter may be by rounding.
 constexpr double at_the_ends = 1e-12;
 
+/// A matrix that the function may return, and what it is in M x'' + C x' + K x = 0.
 struct Given {
   const char* name;
   Matrix MatricesAt::*matrix;
+  std::vector<Matrix> FamilyPiece::*series;
+  double factor;
 };
-constexpr std::array<Given, 5> all_matrices = {{{"M", &MatricesAt::M},
-                                                {"C", &MatricesAt::C},
-                                                {"K", &MatricesAt::K},
-                                                {"E", &MatricesAt::E},
-                                                {"A", &MatricesAt::A}}};
+constexpr std::array<Given, 5> all_matrices = {{{"M", &MatricesAt::M, &FamilyPiece::M, 1.0},
+                                                {"C", &MatricesAt::C, &FamilyPiece::C, 1.0},
+                                                {"K", &MatricesAt::K, &FamilyPiece::K, 1.0},
+                                                {"E", &MatricesAt::E, &FamilyPiece::C, 1.0},
+                                                {"A", &MatricesAt::A, &FamilyPiece::K, -1.0}}};
 
 [[noreturn]] void fail(const std::string& message) {
   throw std::invalid_argument("FunctionFamily: " + message);
@@ -122,14 +126,9 @@ class Layout {
     FamilyPiece piece{of.from, of.to, static_cast<int>(of.coefficients.cols()) - 1, {}, {}, {}};
     Eigen::Index next = 0;
     for (const Given& given : given_) {
-      const bool is_A = given.matrix == &MatricesAt::A;
-      std::vector<Matrix>& series = given.matrix == &MatricesAt::M                           ? piece.M
-                                    : given.matrix == &MatricesAt::C || given.name[0] == 'E' ? piece.C
-                                                                                             : piece.K;
-      for (Eigen::Index j = 0; j < of.coefficients.cols(); ++j) {
-        const Matrix matrix = of.coefficients.col(j).segment(next, n_ * n_).reshaped(n_, n_);
-        series.push_back(is_A ? Matrix(-matrix) : matrix);
-      }
+      std::vector<Matrix>& series = piece.*given.series;
+      for (Eigen::Index j = 0; j < of.coefficients.cols(); ++j)
+        series.push_back(given.factor * of.coefficients.col(j).segment(next, n_ * n_).reshaped(n_, n_));
       while (series.size() > 1 && series.back().isZero(0.0)) series.pop_back();
       next += n_ * n_;
     }
@@ -202,14 +201,10 @@ bool is_constant(const std::vector<FamilyPiece>& pieces, std::vector<Matrix> Fam
   return pieces.size() == 1 && (pieces.front().*matrix).size() == 1;
 }
 
-std::vector<std::string> texts_of(const std::vector<std::string>& given, const char* what, Eigen::Index n,
-                                  const std::function<std::string(Eigen::Index)>& otherwise) {
+void check_texts(const std::vector<std::string>& given, const char* what, Eigen::Index n) {
   if (!given.empty() && static_cast<Eigen::Index>(given.size()) != n)
     fail(std::string(what) + ": expected " + std::to_string(n) + " texts, one for each coordinate, got " +
          std::to_string(given.size()));
-  std::vector<std::string> texts = given;
-  for (Eigen::Index i = static_cast<Eigen::Index>(texts.size()); i < n; ++i) texts.push_back(otherwise(i));
-  return texts;
 }
 
 /// The shortest piece of every run of pieces that are too short for a feature of the width `resolved`: at a
@@ -243,16 +238,14 @@ std::string resolution_text(const FunctionFamilyOptions& options, const std::vec
 ModelDescription describe(const FunctionFamilyOptions& options, const std::vector<FamilyPiece>& pieces,
                           int calls) {
   const Eigen::Index n = pieces.front().K.front().rows();
-  ModelDescription description;
-  description.coordinate_names = texts_of(options.state_names, "state_names", n,
-                                          [](Eigen::Index i) { return "x" + std::to_string(i + 1); });
-  description.coordinate_units =
-      texts_of(options.state_units, "state_units", n, [](Eigen::Index) { return std::string("1"); });
-  const bool has_C = !is_constant(pieces, &FamilyPiece::C) || !pieces.front().C.front().isZero(0.0);
+  check_texts(options.state_names, "state_names", n);
+  check_texts(options.state_units, "state_units", n);
+  ModelDescription description = describe_states(n, options.state_names);
+  if (!options.state_units.empty()) description.coordinate_units = options.state_units;
   Contribution parts{.inertia = true, .conservative = true};
   parts.circulatory = !pieces_equal_transposes(pieces, &FamilyPiece::K, 1.0);
-  parts.dissipative = has_C && !pieces_equal_transposes(pieces, &FamilyPiece::C, -1.0);
-  parts.gyroscopic = has_C && !pieces_equal_transposes(pieces, &FamilyPiece::C, 1.0);
+  parts.dissipative = !pieces_equal_transposes(pieces, &FamilyPiece::C, -1.0);
+  parts.gyroscopic = !pieces_equal_transposes(pieces, &FamilyPiece::C, 1.0);
   description.effects = {{"function",
                           "a function of the caller's: " + std::to_string(calls) + " calls, " +
                               std::to_string(pieces.size()) + (pieces.size() == 1 ? " piece" : " pieces"),
