@@ -15,9 +15,9 @@ constexpr double still_on_axis = 1e-9;
 template <class Real>
 class MatrixSum {
  public:
-  MatrixSum(Eigen::Index rows, Eigen::Index columns, int order, bool sparse)
-      : rows_(rows), columns_(columns), sparse_(sparse), entries_(static_cast<std::size_t>(order) + 1) {
-    if (!sparse) dense_.assign(entries_.size(), Dense::Zero(rows, columns));
+  MatrixSum(int rows, int columns, int order)
+      : rows_(rows), columns_(columns), entries_(static_cast<std::size_t>(order) + 1) {
+    if (!sparse_) dense_.assign(entries_.size(), Dense::Zero(rows, columns));
   }
 
   /// Adds to the coefficient of h^k of an entry.
@@ -53,7 +53,7 @@ class MatrixSum {
   }
 
   Eigen::Index rows_, columns_;
-  bool sparse_;
+  bool sparse_ = columns_ >= sparse_from;
   std::vector<Dense> dense_;
   std::vector<Triplets> entries_;
 };
@@ -62,15 +62,6 @@ class MatrixSum {
 template <class Real>
 struct LinearizationSums {
   MatrixSum<Real> M, C, K, A;
-
-  /// For n coordinates and m constraints.
-  LinearizationSums(int n, int m, int order)
-      : M(n, n, order, n >= sparse_from),
-        C(n, n, order, n >= sparse_from),
-        K(n, n, order, n >= sparse_from),
-        A(m, n, order, n >= sparse_from) {}
-
-  BasicLinearization<Real> take() { return {M.take(), C.take(), K.take(), A.take()}; }
 };
 
 /// Calls visit(row, column, value) for every entry that is not zero.
@@ -150,13 +141,14 @@ class RotorAssembly {
 
   EvaluationFault linearize(BasicLinearization<Real>& result, EvaluationCounts& counts) const {
     if (EvaluationFault fault = check_axis()) return fault;
-    LinearizationSums<Real> sum(map_.n_coordinates, map_.n_constraints, order_);
+    const int n = map_.n_coordinates, m = map_.n_constraints;
+    LinearizationSums<Real> sum{{n, n, order_}, {n, n, order_}, {n, n, order_}, {m, n, order_}};
     BasicLinearization<Real> own;
     for (const RotorPart* part : {&data_.support, &data_.blade}) {
       if (auto fault = part->equations.linearize(path_of(*part), order_, own, counts)) return fault;
       add(*part, own, sum);
     }
-    result = sum.take();
+    result = {sum.M.take(), sum.C.take(), sum.K.take(), sum.A.take()};
     return {};
   }
 
