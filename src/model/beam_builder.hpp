@@ -7,7 +7,6 @@ namespace eigentrail {
 
 /// An end of a beam: where it is and what holds it.
 struct BeamEnd {
-  std::string key;  ///< of the table, for messages
   Place place;
   Carrier carrier;
   ExpressionVector position;  ///< in the frame, at the starting guess

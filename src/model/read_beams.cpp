@@ -27,7 +27,6 @@ class BeamReader {
  private:
   BeamEnd read_end(const std::string& key) {
     BeamEnd end;
-    end.key = key;
     end.place = draft_.read_place(table_, key, &end.carrier);
     if (end.carrier.point >= 0)
       table_.fail(key, "a point has no orientation; a beam needs a body or a fixed place");
@@ -37,7 +36,8 @@ class BeamReader {
 
   /// By default a beam is welded to bodies, clamped in the frame where it begins, and free where it ends.
   void read_holds(std::array<BeamEnd, 2>& ends) {
-    for (BeamEnd& end : ends) end.clamped = end.key == "from" || !end.carrier.is_frame();
+    ends[0].clamped = true;
+    ends[1].clamped = !ends[1].carrier.is_frame();
     if (!table_.has("ends")) return;
     const std::vector<std::string> holds = table_.texts("ends");
     if (holds.size() != 2) table_.fail("ends", "expected two texts, for from and to");

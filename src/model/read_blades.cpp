@@ -147,12 +147,11 @@ class BladeReader {
     design.y = cos(pitch) * tangent + sin(pitch) * up;
     const ExpressionVector root = draft_.at_guess(hub_) + hub_radius * along;
     const ExpressionVector tip = root + length * along;
-    design.ends = {end("hub", root, carrier_, true), end("length", tip, {}, false)};
+    design.ends = {end(root, carrier_, true), end(tip, {}, false)};
   }
 
-  BeamEnd end(const std::string& key, const ExpressionVector& position, const Carrier& carrier,
-              bool clamped) {
-    BeamEnd result{key, {}, carrier, position, clamped};
+  BeamEnd end(const ExpressionVector& position, const Carrier& carrier, bool clamped) {
+    BeamEnd result{{}, carrier, position, clamped};
     if (carrier.is_frame()) {
       result.place = draft_.fixed_place(position);
     } else {
