@@ -64,19 +64,19 @@ bool Draft::is_left_out(std::string_view effect) const {
 
 Quantity Draft::strength(const std::string& effect) {
   if (!request.strengths) return {};
-  const auto known = strengths.find(effect);
-  if (known != strengths.end()) return known->second;
+  for (const auto& [known, strength] : strengths) {
+    if (known == effect) return strength;
+  }
   const int index = static_cast<int>(scene.parameters.size() + strengths.size());
-  strength_names.push_back(effect);
-  return strengths[effect] = quantity(Expression::of_parameter(index));
+  return strengths.emplace_back(effect, quantity(Expression::of_parameter(index))).second;
 }
 
 Parameters Draft::parameters() const {
   std::vector<Parameter> list = scene.parameters.list();
-  for (const std::string& effect : strength_names) {
-    Parameter& strength = list.emplace_back();
-    strength.name = strength_parameter(effect);
-    strength.value = 1.0;
+  for (const auto& [effect, strength] : strengths) {
+    Parameter& added = list.emplace_back();
+    added.name = strength_parameter(effect);
+    added.value = 1.0;
   }
   return Parameters(std::move(list));
 }
@@ -164,9 +164,8 @@ Place Draft::read_place(TableReader& table, const std::string& key, Carrier* car
   return fixed_place(at);
 }
 
-Place Draft::read_moving_place(TableReader& table, const std::string& key, Carrier* carrier) {
-  if (!table.is_table(key)) return named_place(table, key, table.text(key), carrier);
-  return read_place(table, key, carrier);
+Place Draft::read_moving_place(TableReader& table, const std::string& key) {
+  return table.is_table(key) ? read_place(table, key) : named_place(table, key, table.text(key));
 }
 
 int Draft::read_body(TableReader& table, const std::string& key) {

@@ -89,8 +89,8 @@ struct Draft {
   std::vector<std::string> constraint_names;
   std::set<std::string> constraint_labels;
   std::map<std::string, JointMotions> joints;  ///< by label
-  std::map<std::string, Quantity> strengths;   ///< by effect; empty unless requested
-  std::vector<std::string> strength_names;     ///< in the order of their parameters
+  /// By effect, in the order of their parameters; empty unless requested.
+  std::vector<std::pair<std::string, Quantity>> strengths;
 
   TableReader reader(const Table& table, const std::string& label);
   /// Calls read(table, i) for every table [[kind]] of the scene, i its index from 0.
@@ -143,7 +143,7 @@ struct Draft {
   /// Reads a name ("blade", "blade.tip"), a fixed place [x, y, z], or { body = "blade", at = [x, y, z] }.
   Place read_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
   /// The same without fixed places.
-  Place read_moving_place(TableReader& table, const std::string& key, Carrier* carrier = nullptr);
+  Place read_moving_place(TableReader& table, const std::string& key);
   /// Reads a direction [x, y, z] of the frame, an axis "blade.x" of a body, or
   /// { body = "blade", along = [x, y, z] }. Returns the components of its unit vector in the axes of its
   /// carrier.
@@ -202,7 +202,8 @@ struct Draft {
 
  private:
   std::vector<std::string> place_names() const;
-  Place named_place(TableReader& table, const std::string& key, const std::string& name, Carrier* carrier);
+  Place named_place(TableReader& table, const std::string& key, const std::string& name,
+                    Carrier* carrier = nullptr);
 };
 
 /// The names of a list, or another of their texts.
