@@ -108,48 +108,40 @@ std::optional<Choice> with_poles(const std::vector<double>& nodes, const Matrix&
   return choice;
 }
 
-/// Interpolants of successive degrees, from `n_poles` or 1 on.
-struct Choices {
-  std::vector<Choice> list;
-  LeftOutErrors left_out;
-};
-
 /// The highest degree that is tried with so many samples.
 int highest_tried(std::size_t samples) {
   return std::max(1, std::min(static_cast<int>(samples) - 3, highest_degree));
 }
 
-/// Poles are fitted without the sample that is left out, too. At least four nodes.
-Choices choices(const std::vector<double>& nodes, const Matrix& reduced, int n_poles) {
-  const int lowest = std::max(1, n_poles);
-  const int highest = highest_tried(nodes.size());
-  Choices all{{}, {lowest, Matrix::Zero(highest - lowest + 1, static_cast<Eigen::Index>(nodes.size()))}};
-  for (int degree = lowest; degree <= highest; ++degree) {
-    auto norms = all.left_out.norms.row(degree - lowest);
-    std::optional<Choice> choice = with_poles(nodes, reduced, degree, n_poles);
-    for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
-      norms[static_cast<Eigen::Index>(i)] =
-          choice ? (reduced * leave_one_out(nodes, degree, i, choice->without_one[i])).norm() : INFINITY;
-    }
-    all.list.push_back(std::move(choice).value_or(Choice{degree}));
-  }
-  return all;
-}
-
-/// The interpolant of a list that is taken, with its credible error.
+/// The interpolant that is taken, with its credible error; `left_out` is of successive degrees, from the
+/// number of poles or 1 on.
 struct Best {
   Choice choice;
   LeftOutErrors left_out;
   double credible = INFINITY;
 };
 
-/// The smallest degree whose error is about the least one.
-Best best_degree(Choices all) {
-  const Vector errors = all.left_out.norms.rowwise().norm();
+/// The smallest degree whose error is about the least one. Poles are fitted without the sample that is left
+/// out, too. At least four nodes.
+Best best_degree(const std::vector<double>& nodes, const Matrix& reduced, int n_poles) {
+  const int lowest = std::max(1, n_poles);
+  const int highest = highest_tried(nodes.size());
+  std::vector<Choice> choices;
+  LeftOutErrors left_out{lowest, Matrix::Zero(highest - lowest + 1, static_cast<Eigen::Index>(nodes.size()))};
+  for (int degree = lowest; degree <= highest; ++degree) {
+    auto norms = left_out.norms.row(degree - lowest);
+    std::optional<Choice> choice = with_poles(nodes, reduced, degree, n_poles);
+    for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+      norms[static_cast<Eigen::Index>(i)] =
+          choice ? (reduced * leave_one_out(nodes, degree, i, choice->without_one[i])).norm() : INFINITY;
+    }
+    choices.push_back(std::move(choice).value_or(Choice{degree}));
+  }
+  const Vector errors = left_out.norms.rowwise().norm();
   const double least = errors.minCoeff<Eigen::PropagateNumbers>();
   for (Eigen::Index i = 0; i < errors.size(); ++i) {
     if (errors[i] <= as_good * least)
-      return {std::move(all.list[static_cast<std::size_t>(i)]), std::move(all.left_out),
+      return {std::move(choices[static_cast<std::size_t>(i)]), std::move(left_out),
               credible_error(errors, i)};
   }
   return {};
@@ -161,13 +153,13 @@ SamplePiece best_piece(std::size_t first, const std::vector<double>& nodes, Matr
     const int degree = std::max(0, std::min(1, count - 1));
     return {first, RationalInterpolant(nodes, degree), std::move(reduced)};
   }
-  Best best = best_degree(choices(nodes, reduced, 0));
+  Best best = best_degree(nodes, reduced, 0);
   best.choice.without_one.clear();
   LeftOutErrors polynomials = best.left_out;
   const bool few = nodes.size() <= most_samples_with_poles && reduced.rows() > 0;
   const int poles = few ? std::min(most_poles, highest_tried(nodes.size())) : 0;
   for (int n_poles = 1; n_poles <= poles; ++n_poles) {
-    Best other = best_degree(choices(nodes, reduced, n_poles));
+    Best other = best_degree(nodes, reduced, n_poles);
     if (other.credible < worth_poles * best.credible) best = std::move(other);
   }
   return {first,
