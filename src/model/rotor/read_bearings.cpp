@@ -33,15 +33,12 @@ void add_bearing(PencilSum& sum, const BearingEnds& ends, const BearingCoefficie
   for (const auto& [key, one] : coefficients) {
     MatrixSum& to = matrix_of(sum, key);
     const NodeFreedom row = freedom(key[1]), column = freedom(key[2]);
-    const auto add = [&, &one = one](const NodeCoordinates& of_row, const NodeCoordinates& of_column,
-                                     double sign) {
-      to.add(of_row[row], of_column[column], one.value, sign, one.table);
-    };
-    add(*ends.node, *ends.node, 1.0);
-    if (ends.other == nullptr) continue;
-    add(*ends.other, *ends.other, 1.0);
-    add(*ends.node, *ends.other, -1.0);
-    add(*ends.other, *ends.node, -1.0);
+    for (const NodeCoordinates* a : {ends.node, ends.other}) {
+      for (const NodeCoordinates* b : {ends.node, ends.other}) {
+        if (a != nullptr && b != nullptr)
+          to.add((*a)[row], (*b)[column], one.value, a == b ? 1.0 : -1.0, one.table);
+      }
+    }
   }
 }
 
