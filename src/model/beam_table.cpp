@@ -42,12 +42,6 @@ void add_product(BeamTable::Stiffness& S, const Expression& k, const StrainVecto
   }
 }
 
-StrainVector strain_unit(std::size_t i) {
-  StrainVector v;
-  v[i] = 1.0;
-  return v;
-}
-
 /// Stiffness from that of extension about the tension centre and of shear and twist about the shear centre.
 /// Extension at (y, z) is Gamma_x + z kappa_y - y kappa_z; shear there is Gamma_y - z kappa_x, Gamma_z + y
 /// kappa_x.
@@ -80,9 +74,9 @@ std::vector<BeamTable::Stiffness> engineering_stiffness(StationColumns& columns,
     add_product(stiffness[i], EA[i], {1.0, none, none, none, tz[i], -ty[i]});
     add_product(stiffness[i], shear_lag[i], {none, 1.0, none, -sz[i], none, none});
     add_product(stiffness[i], shear_flap[i], {none, none, 1.0, sy[i], none, none});
-    add_product(stiffness[i], GJ[i], strain_unit(3));
-    add_product(stiffness[i], flap[i], strain_unit(4));
-    add_product(stiffness[i], lag[i], strain_unit(5));
+    add_product(stiffness[i], GJ[i], {none, none, none, 1.0, none, none});
+    add_product(stiffness[i], flap[i], {none, none, none, none, 1.0, none});
+    add_product(stiffness[i], lag[i], {none, none, none, none, none, 1.0});
   }
   return stiffness;
 }

@@ -67,7 +67,7 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   if (model != "uniform" && model != "pitt_peters" && model != "annular")
     table.fail("model", "expected \"uniform\", \"annular\" or \"pitt_peters\", found \"" + model + "\"");
   inflow.annular = model == "annular";
-  const Expression radius = draft.read_number(table, "radius", "m", Range::positive);
+  inflow.radius = draft.read_number(table, "radius", "m", Range::positive);
   const ExpressionVector centre = draft.read_vector(table, "centre", "m", Range::any, ExpressionVector{});
   const ExpressionVector axis =
       normalized(draft.read_vector(table, "axis", any_unit, Range::positive, unit_vector(2)));
@@ -83,15 +83,13 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   if (inflow.tip_loss && !inflow.annular) table.fail("tip_loss", "needs model = \"annular\"");
   const Expression blades = draft.read_number(table, "blades", "", Range::positive, 1.0);
   inflow.blades = draft.rotor ? Expression(draft.rotor->blades) : blades;
-  const Expression tip = Expression(of_tip_speed) * radius * dot(rotation, axis);
+  const Expression tip = Expression(of_tip_speed) * inflow.radius * dot(rotation, axis);
   const Expression drift = Expression(of_wind) * dot(wind, axis);
-  Expression guess = sqrt(tip * tip + drift * drift);
-  if (table.has("guess")) guess = draft.read_number(table, "guess", "m/s", Range::any);
+  inflow.guess = sqrt(tip * tip + drift * drift);
+  if (table.has("guess")) inflow.guess = draft.read_number(table, "guess", "m/s", Range::any);
   const Expression density = draft.read_number(table, "density", "kg/m^3", Range::positive, 1.225);
   table.finish();
 
-  inflow.guess = guess;
-  inflow.radius = radius;
   if (draft.rotor) inflow.sense = sense_of_rotor(draft, table, axis, centre);
   if (!inflow.annular) inflow.element.velocity = add_velocity(draft, inflow);
   inflow.element.axis = inflow.disc.axis = draft.vector(axis);
@@ -99,12 +97,12 @@ InflowDraft read_disc(Draft& draft, TableReader& table, const ExpressionVector& 
   // With [rotor] the axes x, y of the disc stand; without gradients they do not matter.
   const bool stands = draft.rotor && model == "pitt_peters";
   inflow.element.angular_velocity = draft.vector(stands ? ExpressionVector{} : rotation);
-  inflow.element.radius = draft.quantity(radius);
+  inflow.element.radius = draft.quantity(inflow.radius);
   inflow.element.density = draft.quantity(density);
   const auto [x, y] = across(draft, axis);
   inflow.disc.centre = draft.vector(centre);
-  inflow.disc.x = draft.vector((Expression(1.0) / radius) * x);
-  inflow.disc.y = draft.vector((Expression(1.0) / radius) * y);
+  inflow.disc.x = draft.vector((Expression(1.0) / inflow.radius) * x);
+  inflow.disc.y = draft.vector((Expression(1.0) / inflow.radius) * y);
   inflow.disc.blades = draft.quantity(blades);
   if (model == "uniform") hold_gradients(draft, inflow.element, inflow.name + " uniform");
   return inflow;
