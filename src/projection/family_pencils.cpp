@@ -9,55 +9,28 @@
 
 namespace eigentrail {
 
-SparseSum::SparseSum(const std::vector<AffineTerm<SparseMatrix>>& terms, Eigen::Index n)
-    : terms_(terms), n_(n) {
-  if (terms.size() < 2) return;
-  SparseMatrix all(n, n);
-  for (const AffineTerm<SparseMatrix>& term : terms) all += term.matrix.cwiseAbs();
-  starts_.assign(all.outerIndexPtr(), all.outerIndexPtr() + n + 1);
-  rows_.assign(all.innerIndexPtr(), all.innerIndexPtr() + all.nonZeros());
-}
-
-SparseMatrix SparseSum::with(std::span<const double> factors) const {
-  if (terms_.empty()) return SparseMatrix(n_, n_);
-  if (terms_.size() == 1) return factors[0] * terms_.front().matrix;
-  const std::vector<double> zeros(rows_.size(), 0.0);
-  SparseMatrix sum = Eigen::Map<const SparseMatrix>(n_, n_, static_cast<Eigen::Index>(rows_.size()),
-                                                    starts_.data(), rows_.data(), zeros.data());
-  std::vector<int> place(static_cast<std::size_t>(n_));  // of a row within the sum's column
-  for (Eigen::Index j = 0; j < n_; ++j) {
-    for (int k = starts_[static_cast<std::size_t>(j)]; k < starts_[static_cast<std::size_t>(j) + 1]; ++k)
-      place[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])] = k;
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      for (SparseMatrix::InnerIterator entry(terms_[i].matrix, j); entry; ++entry)
-        sum.valuePtr()[place[static_cast<std::size_t>(entry.row())]] += factors[i] * entry.value();
-    }
-  }
-  return sum;
-}
-
 FamilyPencils::FamilyPencils(const SparseFamily& family)
     : family_(family),
       M_(family.pencil().M, family.n_coordinates()),
       C_(family.pencil().C, family.n_coordinates()),
       K_(family.pencil().K, family.n_coordinates()) {}
 
-FamilyPencils::Terms::Terms(const std::vector<AffineTerm<SparseMatrix>>& the_terms, Eigen::Index n)
-    : terms(the_terms), sum(the_terms, n) {
+FamilyPencils::Terms::Terms(const std::vector<AffineTerm<SparseMatrix>>& the_terms, Eigen::Index the_size)
+    : terms(the_terms), n(the_size) {
   for (const AffineTerm<SparseMatrix>& term : terms)
     symmetries.push_back({equals_transpose(term.matrix, 1.0), equals_transpose(term.matrix, -1.0)});
 }
 
 FamilyPencils::Sum FamilyPencils::sum_at(const Terms& terms, std::span<const Series<double, 0>> si) {
-  Symmetry symmetry;
-  std::vector<double> factors;
+  Sum sum{SparseMatrix(terms.n, terms.n), {}};
   for (std::size_t i = 0; i < terms.terms.size(); ++i) {
-    factors.push_back(factor_of(terms.terms[i], si)[0]);
-    if (factors.back() == 0.0) continue;
-    symmetry.symmetric = symmetry.symmetric && terms.symmetries[i].symmetric;
-    symmetry.skew = symmetry.skew && terms.symmetries[i].skew;
+    const double factor = factor_of(terms.terms[i], si)[0];
+    sum.matrix += factor * terms.terms[i].matrix;  // zeros stay entries
+    if (factor == 0.0) continue;
+    sum.symmetry.symmetric = sum.symmetry.symmetric && terms.symmetries[i].symmetric;
+    sum.symmetry.skew = sum.symmetry.skew && terms.symmetries[i].skew;
   }
-  return {terms.sum.with(factors), symmetry};
+  return sum;
 }
 
 SparsePencil FamilyPencils::at(const Vector& parameters) const {

@@ -8,31 +8,16 @@
 
 namespace eigentrail {
 
-/// sum_i f_i A_i for varying factors f_i. The matrices must outlive it.
-class SparseSum {
- public:
-  /// The matrices of the terms, n x n each, compressed.
-  SparseSum(const std::vector<AffineTerm<SparseMatrix>>& terms, Eigen::Index n);
-
-  /// The sum, with the pattern of all matrices together whatever the factors are, so that it is analyzed
-  /// once. One factor per matrix. Cost: the number of their nonzeros.
-  SparseMatrix with(std::span<const double> factors) const;
-
- private:
-  const std::vector<AffineTerm<SparseMatrix>>& terms_;
-  Eigen::Index n_;
-  std::vector<int> starts_, rows_;  ///< of the columns of the sum; empty with less than two matrices
-};
-
 class FamilyPencils {
  public:
-  /// Finds the symmetry of each matrix of the family, and the patterns of their sums, once.
+  /// Finds the symmetry of each matrix of the family, once.
   explicit FamilyPencils(const SparseFamily& family);
 
   const SparseFamily& family() const { return family_; }
 
-  /// The pencil at given parameters (declared units). It counts as symmetric where all matrices are whose
-  /// factor is not zero there; matrices whose skew parts cancel in the sum do not.
+  /// The pencil at given parameters (declared units). Its matrices have the pattern of all their terms
+  /// together whatever the factors are, so that it is analyzed once. It counts as symmetric where all terms
+  /// are whose factor is not zero there; terms whose skew parts cancel in the sum do not.
   SparsePencil at(const Vector& parameters) const;
 
   /// The family on the space of the orthonormal columns of `basis`, n x k: basis^T A basis for each of its
@@ -46,10 +31,10 @@ class FamilyPencils {
   /// The terms of M, C or K.
   struct Terms {
     const std::vector<AffineTerm<SparseMatrix>>& terms;
+    Eigen::Index n;
     std::vector<Symmetry> symmetries;
-    SparseSum sum;
 
-    Terms(const std::vector<AffineTerm<SparseMatrix>>& the_terms, Eigen::Index n);
+    Terms(const std::vector<AffineTerm<SparseMatrix>>& the_terms, Eigen::Index the_size);
     std::vector<AffineTerm<Matrix>> projected(const Matrix& basis) const;
   };
   struct Sum {
