@@ -54,6 +54,7 @@ Worst ScoutedPlaces::worst(const Model& model, bool traces_hold, double enough) 
   }
   places_.clear();
   for (const ParameterValues& line : lines_) scout(model, line);
+  indicators_.assign(places_.size(), std::nullopt);
   return find_worst(model, enough).value();
 }
 
@@ -107,7 +108,6 @@ bool ScoutedPlaces::look_at(const Model& model, std::size_t i, Worst& worst) {
 
 /// Empty if the modes of an old place are not found again.
 std::optional<Worst> ScoutedPlaces::find_worst(const Model& model, double enough) {
-  indicators_.assign(places_.size(), std::nullopt);
   Worst worst{&places_.front(), -1.0};
   for (std::size_t i = 0; i < places_.size(); i += 2) {
     if (!look_at(model, i, worst)) return std::nullopt;
@@ -121,23 +121,14 @@ std::optional<Worst> ScoutedPlaces::find_worst(const Model& model, double enough
   return worst;
 }
 
-/// Empty as for find_worst.
-std::optional<Worst> ScoutedPlaces::look_at_all(const Model& model) {
-  Worst worst{&places_.front(), -1.0};
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (!look_at(model, i, worst)) return std::nullopt;
-  }
-  return worst;
-}
-
 Worst ScoutedPlaces::worst_of_all(const Model& model) {
-  const auto found = look_at_all(model);
+  const auto found = find_worst(model, INFINITY);
   return found ? *found : worst(model, false, INFINITY);
 }
 
 std::optional<Worst> ScoutedPlaces::correct_for(const Model& model) {
   forget_modes();
-  return look_at_all(model);
+  return find_worst(model, INFINITY);
 }
 
 void ScoutedPlaces::forget_modes() {

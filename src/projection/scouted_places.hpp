@@ -51,7 +51,6 @@ class ScoutedPlaces {
   void forget_modes();
   std::optional<Worst> find_worst(const Model& model, double enough);
   bool look_at(const Model& model, std::size_t i, Worst& worst);
-  std::optional<Worst> look_at_all(const Model& model);
   std::optional<double> indicator_at(const Model& model, ProjectedPlace& place) const;
   double size(Complex s) const { return std::max(std::abs(s), reference_); }
 
