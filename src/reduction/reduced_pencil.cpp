@@ -58,42 +58,17 @@ MatrixSeries project(const TangentBasis& basis, const std::optional<SparseCongru
   return result;
 }
 
-/// The rows of the only entries of every column; empty if a column has not one entry.
-std::vector<Eigen::Index> only_entries(const Matrix& A) {
-  std::vector<Eigen::Index> rows;
-  for (const auto& column : A.colwise()) {
-    Eigen::Index row = 0;
-    column.cwiseAbs().maxCoeff(&row);
-    if ((column.array() != 0.0).count() != 1) return {};
-    rows.push_back(row);
-  }
-  return rows;
+/// Whether a matrix only selects and scales coordinates: one entry in every column.
+bool selects(const Matrix& A) {
+  return ((A.array() != 0.0).colwise().count() == 1).all();
 }
 
-/// The diagonal blocks of left^T B right where both select coordinates: the directions x and y of a shaft.
-/// The same numbers as the products, without their n^3 multiplications.
-Matrix selected_blocks(const IndependentParts& parts, const Matrix& B, const std::vector<Eigen::Index>& rows,
-                       const std::vector<Eigen::Index>& columns) {
-  Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
-  for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.complex_sign < 0) continue;  // has the same matrices
-    for (Eigen::Index j = range.first; j < range.first + range.size; ++j) {
-      const Eigen::Index column = columns[static_cast<std::size_t>(j)];
-      for (Eigen::Index i = range.first; i < range.first + range.size; ++i) {
-        const Eigen::Index row = rows[static_cast<std::size_t>(i)];
-        result(i, j) = parts.left(row, i) * (B(row, column) * parts.right(column, j));
-      }
-    }
-  }
-  return result;
-}
-
-/// The diagonal blocks of left^T B right.
+/// left^T B right, of which the diagonal blocks are used.
 Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
-  if (!B.is_sparse()) {
-    const std::vector<Eigen::Index> rows = only_entries(parts.left), columns = only_entries(parts.right);
-    if (!rows.empty() && !columns.empty()) return selected_blocks(parts, B.dense(), rows, columns);
-  }
+  // Balanced coordinates, the directions x and y of a shaft: the same numbers as below, without their n^3
+  // multiplications.
+  if (!B.is_sparse() && selects(parts.left) && selects(parts.right))
+    return congruence(parts.left, B.dense(), parts.right);
   Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
   Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
   B.add_product_to(product, parts.right);
@@ -116,11 +91,6 @@ MatrixSeries transformed(const IndependentParts& parts, const std::optional<Spar
                          const SystemSeries& B, const Matrix& pattern, int order) {
   const std::size_t count = last_order(order, B.size(), 1) + 1;
   MatrixSeries result(count);
-  if (parts.is_diagonal) {
-    for (std::size_t k = 0; k < count; ++k)
-      result[k] = parts.left.diagonal().asDiagonal() * B[k].dense() * parts.right.diagonal().asDiagonal();
-    return result;
-  }
   if (sparse && B[0].is_sparse()) {
     result = (*sparse)(B, count);
   } else {
