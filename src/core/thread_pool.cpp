@@ -10,55 +10,31 @@
 
 namespace eigentrail {
 
-/// The work of one call of run. The pool's mutex guards all members but `next_`, which is atomic. `seats_` is
-/// the number of helper threads that may still join.
-class ThreadPool::Batch {
- public:
-  Batch(std::size_t count, std::size_t seats, const std::function<void(std::size_t)>& work)
-      : count_(count), work_(work), seats_(seats) {}
+/// The work of one call of run. The pool's mutex guards what is not constant but for `next`, which is atomic.
+struct ThreadPool::Batch {
+  const std::size_t count;
+  const std::function<void(std::size_t)>& work;
+  std::size_t seats;  ///< how many helper threads may still join
+  std::atomic<std::size_t> next{0};
+  std::size_t inside = 0;  ///< helpers that have joined and not left
+  std::exception_ptr failure = {};
+  std::condition_variable empty = {};
 
   /// Works until no piece is left; the caller must not hold the pool's mutex. Returns the exception if a
   /// piece throws.
   std::exception_ptr take_pieces() {
     try {
-      for (std::size_t i = next_++; i < count_; i = next_++) work_(i);
+      for (std::size_t i = next++; i < count; i = next++) work(i);
     } catch (...) {
-      next_ = count_;
+      next = count;
       return std::current_exception();
     }
     return nullptr;
   }
 
-  /// A helper joins. Returns whether another helper may join.
-  bool join() {
-    ++inside_;
-    return --seats_ > 0;
+  void note(std::exception_ptr of_thread) {
+    if (!failure) failure = std::move(of_thread);
   }
-
-  void leave(std::exception_ptr failure) {
-    note(std::move(failure));
-    // The mutex must be held here: the batch is destroyed as soon as its owner sees that no helper is inside.
-    if (--inside_ == 0) empty_.notify_one();
-  }
-
-  void note(std::exception_ptr failure) {
-    if (!failure_) failure_ = std::move(failure);
-  }
-
-  void wait_for_helpers(std::unique_lock<std::mutex>& lock) {
-    empty_.wait(lock, [this] { return inside_ == 0; });
-  }
-
-  const std::exception_ptr& failure() const { return failure_; }
-
- private:
-  const std::size_t count_;
-  const std::function<void(std::size_t)>& work_;
-  std::atomic<std::size_t> next_{0};
-  std::size_t seats_;
-  std::size_t inside_ = 0;
-  std::exception_ptr failure_;
-  std::condition_variable empty_;
 };
 
 ThreadPool::~ThreadPool() {
@@ -71,7 +47,7 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::run(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& work) {
   const std::size_t helpers = count == 0 ? 0 : std::min(threads, count) - 1;
-  Batch batch(count, helpers, work);
+  Batch batch{count, work, helpers};
   if (helpers > 0) {
     const std::lock_guard lock(mutex_);
     make_helpers(helpers);
@@ -83,8 +59,8 @@ void ThreadPool::run(std::size_t count, std::size_t threads, const std::function
     std::unique_lock lock(mutex_);
     open_.remove(&batch);
     batch.note(std::move(failure));
-    batch.wait_for_helpers(lock);
-    failure = batch.failure();
+    batch.empty.wait(lock, [&batch] { return batch.inside == 0; });
+    failure = batch.failure;
   }
   if (failure) std::rethrow_exception(failure);
 }
@@ -109,11 +85,14 @@ void ThreadPool::help() {
     work_or_end_.wait(lock, [this] { return ends_ || !open_.empty(); });
     if (ends_) return;
     Batch& batch = *open_.front();
-    if (!batch.join()) open_.pop_front();
+    ++batch.inside;
+    if (--batch.seats == 0) open_.pop_front();
     lock.unlock();
     std::exception_ptr failure = batch.take_pieces();
     lock.lock();
-    batch.leave(std::move(failure));
+    batch.note(std::move(failure));
+    // The mutex must be held here: the batch is destroyed as soon as its owner sees that no helper is inside.
+    if (--batch.inside == 0) batch.empty.notify_one();
   }
 }
 

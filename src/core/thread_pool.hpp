@@ -34,7 +34,7 @@ class ThreadPool {
   std::size_t n_helpers() const;
 
  private:
-  class Batch;
+  struct Batch;
 
   void make_helpers(std::size_t wanted);
   void help();
