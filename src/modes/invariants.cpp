@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bisection.hpp"
 #include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/matching.hpp"
 
@@ -111,7 +112,6 @@ namespace {
 /// The x with x^k = error (nu^(k-1) + nu^(k-2) x + ... + x^(k-1)): eigenvalues of a k x k matrix whose
 /// departure from normality is nu move at most so far if the matrix changes by `error` (Henrici 1962).
 double henrici_bound(double error, double nu, Eigen::Index k) {
-  double low = error;
   double high = std::max(2.0 * error, 1e-300);
   const auto holds = [&](double x) {
     double sum = 0.0;
@@ -120,11 +120,7 @@ double henrici_bound(double error, double nu, Eigen::Index k) {
   };
   while (!holds(high) && std::isfinite(high)) high *= 2.0;
   constexpr int halvings = 10;  // to a tenth of a per cent
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (holds(middle) ? high : low) = middle;
-  }
-  return high;
+  return bisected(high, error, halvings, holds).last;
 }
 
 struct Eigensystem {
