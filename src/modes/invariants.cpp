@@ -206,24 +206,6 @@ Vector root_resolutions(const ComplexVector& functions, const ComplexVector& roo
   return (errors.array() < INFINITY).select(Vector::Zero(k), Vector::Constant(k, resolution));
 }
 
-namespace {
-
-/// The nearest column of every row if this is a one-to-one assignment and no other column is equally near;
-/// empty otherwise.
-std::vector<int> nearest_of_all(const Matrix& cost) {
-  std::vector<int> assignment;
-  for (Eigen::Index i = 0; i < cost.rows(); ++i) {
-    Eigen::Index nearest = 0;
-    const double least = cost.row(i).minCoeff(&nearest);
-    const bool is_taken = std::find(assignment.begin(), assignment.end(), nearest) != assignment.end();
-    if (is_taken || (cost.row(i).array() <= least).count() != 1) return {};
-    assignment.push_back(static_cast<int>(nearest));
-  }
-  return assignment;
-}
-
-}  // namespace
-
 ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to) {
   const Eigen::Index k = from.size();
   if (k == 1) return to;
@@ -237,8 +219,7 @@ ComplexVector in_order_of(const ComplexVector& from, const ComplexVector& to) {
     for (Eigen::Index j = 0; j < k; ++j) cost(i, j) = std::abs(from[i] - to[j]);
   }
   ComplexVector ordered(k);
-  std::vector<int> assignment = nearest_of_all(cost);
-  if (assignment.empty()) assignment = optimal_assignment(cost);
+  const std::vector<int> assignment = optimal_assignment(cost);
   for (Eigen::Index i = 0; i < k; ++i) ordered[i] = to[assignment[static_cast<std::size_t>(i)]];
   return ordered;
 }
