@@ -380,7 +380,6 @@ Splitting refined(const Splitting& splitting, const std::vector<Matrix>& all, Se
     result.sizes.insert(result.sizes.end(), sizes.begin(), sizes.end());
     at += size;
   }
-  result.of_pair.assign(result.sizes.size(), false);
   return result;
 }
 
@@ -442,7 +441,6 @@ Splitting split(const std::vector<Matrix>& all, double magnified) {
     result.sizes.insert(result.sizes.end(), finer.sizes.begin(), finer.sizes.end());
     at += size;
   }
-  result.of_pair.assign(result.sizes.size(), false);
   return result;
 }
 

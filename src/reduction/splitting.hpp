@@ -18,7 +18,8 @@ struct Splitting {
   Matrix right, left;
   std::vector<Eigen::Index> sizes;
   /// Per part, whether it belongs to a complex pair of eigenvalues of X. Then it is a complex pair of parts
-  /// that no real coordinates separate, or two equal parts of which another X would tell.
+  /// that no real coordinates separate, or two equal parts of which another X would tell. Only where the
+  /// parts are those of one X.
   std::vector<bool> of_pair;
 };
 
