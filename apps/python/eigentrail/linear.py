@@ -1,6 +1,6 @@
 """The linearized equations of a scene as arrays, for control tools and programs of one's own."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -20,7 +20,7 @@ class Matrices(NamedTuple):
     D: Any
 
 
-class LinearModel(Mapping[str, Any]):
+class LinearModel(dict[str, Any]):
     """Arrays by their names, those of the files of `eigentrail linearize`: `model["M"]`, or `model.M`; also
     `np.savez("model.npz", **model)` and `scipy.io.savemat("model.mat", {**model})`.
 
@@ -35,26 +35,13 @@ class LinearModel(Mapping[str, Any]):
     ((2, 2, 2), array([0. , 0.5]), ['x1', 'x2'])
     """
 
-    def __init__(self, arrays: dict[str, Any]) -> None:
-        self._arrays = arrays
-
-    def __getitem__(self, name: str) -> Any:
-        return self._arrays[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._arrays)
-
-    def __len__(self) -> int:
-        return len(self._arrays)
-
     def __getattr__(self, name: str) -> Any:
-        arrays = self.__dict__.get("_arrays", {})
-        if name not in arrays:
-            raise AttributeError(f"this model has no array {name!r}; it has {', '.join(arrays)}")
-        return arrays[name]
+        if name not in self:
+            raise AttributeError(f"this model has no array {name!r}; it has {', '.join(self)}")
+        return self[name]
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self._arrays]
+        return [*super().__dir__(), *self]
 
     def __repr__(self) -> str:
         return f"LinearModel({', '.join(f'{name} {np.shape(array)}' for name, array in self.items())})"
