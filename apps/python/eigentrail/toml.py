@@ -1,7 +1,6 @@
 """Scenes as TOML text, from dictionaries."""
 
 import json
-import math
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -50,8 +49,7 @@ def value_text(value: Any) -> str:
     if isinstance(value, (float, complex, np.floating, np.complexfloating)):
         if value.imag != 0.0:
             raise TypeError(f"a scene holds real numbers, not {value}")
-        number = float(value.real)
-        return repr(number) if math.isfinite(number) else {math.inf: "inf", -math.inf: "-inf"}.get(number, "nan")
+        return repr(float(value.real))  # also "inf" and "nan"
     if hasattr(value, "__array__") or is_sparse(value):
         return value_text(_listed(value))
     if isinstance(value, Mapping):
