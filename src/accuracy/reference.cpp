@@ -7,8 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "accuracy/spectrum_distance.hpp"
-#include "core/connected_groups.hpp"
+#include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail {
@@ -110,9 +109,6 @@ std::optional<ExtendedPencil> extended_pencil(const PathProblem& problem, const 
   return pencil;
 }
 
-/// Eigenvalues that differ by less than this, relative to their magnitude, are refined together as one block.
-constexpr double same_cluster = 1e-3;
-
 ExtendedComplexMatrix multiply(const ExtendedMatrix& B, const ExtendedComplexMatrix& Z) {
   const ExtendedMatrix real = B.lazyProduct(Z.real());
   const ExtendedMatrix imag = B.lazyProduct(Z.imag());
@@ -193,76 +189,21 @@ std::vector<ExtendedComplex> eigenvalues(const ExtendedComplexMatrix& Lambda, bo
   return result;
 }
 
-/// Groups of close eigenvalues, as indices into `s`, which contains both members of complex pairs.
-Groups clusters(const std::vector<Complex>& s, double reference) {
-  return connected_groups(static_cast<Eigen::Index>(s.size()), [&](Eigen::Index i, Eigen::Index j) {
-    const Complex a = s[static_cast<std::size_t>(i)], b = s[static_cast<std::size_t>(j)];
-    return std::abs(a - b) <= same_cluster * std::max({std::abs(a), std::abs(b), reference});
-  });
-}
+/// Eigenvalues that differ by less than this, relative to their magnitude, are refined together as one block.
+constexpr double same_cluster = 1e-3;
 
-/// The finite eigenvalues, with both members of complex pairs, and the index of the mode of each.
-struct SpectrumMembers {
-  std::vector<Complex> s;
-  std::vector<std::size_t> mode;
-
-  explicit SpectrumMembers(const Spectrum& spectrum) {
-    for (std::size_t i = 0; i < spectrum.modes.size(); ++i) {
-      const std::vector<Complex> own = with_conjugates({spectrum.modes[i].s});
-      s.insert(s.end(), own.begin(), own.end());
-      mode.insert(mode.end(), own.size(), i);
-    }
-  }
-
-  /// Whether a group contains the conjugates of all its members, so that its block can be real.
-  bool closed(const std::vector<std::size_t>& group) const {
-    return std::all_of(group.begin(), group.end(), [&](std::size_t i) {
-      return s[i].imag() == 0.0 || std::any_of(group.begin(), group.end(),
-                                               [&](std::size_t j) { return j != i && mode[j] == mode[i]; });
-    });
-  }
-
-  Complex mean(const std::vector<std::size_t>& group) const {
-    Complex sum = 0.0;
-    for (const std::size_t i : group) sum += s[i];
-    return sum / static_cast<double>(group.size());
-  }
-};
-
-InvariantPair starting_pair(const ReducedPencil& pencil, const Spectrum& spectrum,
-                            const SpectrumMembers& members, const std::vector<std::size_t>& group,
-                            double reference) {
-  const bool real = members.closed(group);
-  const Complex mean = members.mean(group);
-  if (group.size() > 1) {
-    return invariant_subspace(pencil.M[0], pencil.C[0], pencil.K[0], real ? mean.real() : mean,
-                              static_cast<Eigen::Index>(group.size()), real, reference);
-  }
-  const StartingMode& mode = spectrum.modes[members.mode[group[0]]];
-  InvariantPair pair;
-  pair.is_real = real;
-  pair.Z = mode.z;
-  if (real) {
-    // The eigenvector of a real eigenvalue is real except for a complex factor.
-    Eigen::Index largest = 0;
-    mode.z.cwiseAbs().maxCoeff(&largest);
-    pair.Z = (mode.z / mode.z[largest]).real().cast<Complex>();
-  }
-  pair.Lambda = ComplexMatrix::Constant(1, 1, mode.s);
-  return pair;
-}
-
-/// Which members are as near to one of the followed eigenvalues as the nearest one; all of them without any.
-std::vector<bool> beside(const std::optional<ComplexVector>& followed, const std::vector<Complex>& s,
+/// Which modes are as near to one of the followed eigenvalues as the nearest one; all of them without any.
+std::vector<bool> beside(const std::optional<ComplexVector>& followed, const std::vector<StartingMode>& modes,
                          double reference) {
-  std::vector<bool> result(s.size(), !followed);
-  if (!followed) return result;
+  std::vector<bool> result(modes.size(), !followed);
+  if (!followed || modes.empty()) return result;
   for (const Complex value : *followed) {
-    const auto distance = [value](const Complex& other) { return std::abs(other - value); };
-    if (s.empty() || !std::isfinite(value.real())) continue;
+    if (!std::isfinite(value.real())) continue;
+    const auto distance = [value](const StartingMode& mode) { return std::abs(mode.s - value); };
     const double close = same_cluster * std::max(std::abs(value), reference);
-    const double nearest = distance(*std::ranges::min_element(s, {}, distance));
-    for (std::size_t i = 0; i < s.size(); ++i) result[i] = result[i] || distance(s[i]) <= nearest + close;
+    const double nearest = distance(*std::ranges::min_element(modes, {}, distance));
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      result[i] = result[i] || distance(modes[i]) <= nearest + close;
   }
   return result;
 }
@@ -276,17 +217,16 @@ void refine_modes(const ExtendedPencil& extended, const std::optional<ComplexVec
   if (spectrum.status != SpectrumStatus::complete) return;
   result.status = ReferenceStatus::not_converged;
   const PencilAtPoint at_point(pencil);
-  const SpectrumMembers members(spectrum);
-  const std::vector<bool> is_wanted = beside(followed, members.s, reference);
+  const std::vector<bool> is_beside = beside(followed, spectrum.modes, reference);
+  const auto is_wanted = [&](int mode) { return mode >= 0 && is_beside[static_cast<std::size_t>(mode)]; };
   ModeCounts counts;
-  for (const auto& indices : clusters(members.s, reference)) {
-    const std::vector<std::size_t> group(indices.begin(), indices.end());
-    const bool real = members.closed(group);
-    if (!real && members.mean(group).imag() < 0.0) continue;
+  for (const StartingGroup& group :
+       starting_groups(pencil, spectrum.modes, static_cast<int>(spectrum.modes.size()), reference, reference,
+                       same_cluster)) {
+    const bool real = group.pair.is_real;
     std::vector<ExtendedComplex> found;
-    if (std::ranges::any_of(group, [&](std::size_t i) { return is_wanted[i]; })) {
-      const InvariantPair pair = correct_pair(
-          at_point, starting_pair(pencil, spectrum, members, group, reference), reference, {}, counts);
+    if (std::ranges::any_of(group.modes, is_wanted)) {
+      const InvariantPair pair = correct_pair(at_point, group.pair, reference, {}, counts);
       if (pair.status != PairStatus::converged) return;
       ExtendedComplexMatrix Lambda;
       const double last = refine_pair(extended, pair, reference, Lambda);
@@ -294,7 +234,7 @@ void refine_modes(const ExtendedPencil& extended, const std::optional<ComplexVec
       result.correction = std::max(result.correction, last);
       found = eigenvalues(Lambda, real);
     } else {
-      for (const std::size_t i : group) found.emplace_back(members.s[i].real(), members.s[i].imag());
+      for (const Complex s : group.roots) found.emplace_back(s.real(), s.imag());
     }
     for (const ExtendedComplex& s : found) {
       if (!real || s.imag() >= Extended(0.0)) result.s.push_back(s);

@@ -11,10 +11,6 @@
 namespace eigentrail {
 namespace {
 
-/// Eigenvalues with at most this relative distance start as a block. QZ gives a double eigenvalue to 1e-8 at
-/// best, a triple one to 1e-5.
-constexpr double close = 1e-4;
-
 /// Double eigenvalues zero, rigid-body motions for example, are known only to the square root of rounding,
 /// relative to the square root of |K|/|M|, or to |K|/|C| in equations of first order. This is ten times as
 /// much, for the factors that depend on n.
@@ -30,7 +26,7 @@ double blur_at_zero(const ReducedPencil& pencil) {
 /// Indices of modes that are connected by close eigenvalues; those of copies are by themselves. A mode is
 /// also close to another if it is close to the conjugate of that. `s_ref`: magnitude below which eigenvalues
 /// count as zero; `blur`: as from blur_at_zero.
-Groups close_groups(const std::vector<StartingMode>& modes, double s_ref, double blur) {
+Groups close_groups(const std::vector<StartingMode>& modes, double s_ref, double blur, double close) {
   return connected_groups(static_cast<Eigen::Index>(modes.size()), [&](Eigen::Index i, Eigen::Index j) {
     const StartingMode& one = modes[static_cast<std::size_t>(i)];
     const StartingMode& other = modes[static_cast<std::size_t>(j)];
@@ -42,7 +38,7 @@ Groups close_groups(const std::vector<StartingMode>& modes, double s_ref, double
 }
 
 /// Whether an eigenvalue is so close to its conjugate that both start in one block.
-bool near_real(Complex s, double s_ref) {
+bool near_real(Complex s, double s_ref, double close) {
   return 2.0 * std::abs(s.imag()) <= close * std::max(std::abs(s), s_ref);
 }
 
@@ -50,16 +46,16 @@ bool near_real(Complex s, double s_ref) {
 
 std::vector<StartingGroup> starting_groups(const ReducedPencil& pencil,
                                            const std::vector<StartingMode>& modes, int n_modes, double s_ref,
-                                           double least_scale) {
+                                           double least_scale, double close) {
   s_ref = std::max(s_ref, least_scale);
   const double blur = blur_at_zero(pencil);
   std::vector<StartingGroup> groups;
-  for (const std::vector<Eigen::Index>& members : close_groups(modes, s_ref, blur)) {
+  for (const std::vector<Eigen::Index>& members : close_groups(modes, s_ref, blur, close)) {
     const StartingMode& first = modes[static_cast<std::size_t>(members.front())];
     if (first.copy > 0 || members.front() >= n_modes) continue;
     const bool is_real = std::any_of(members.begin(), members.end(), [&](Eigen::Index i) {
       const Complex s = modes[static_cast<std::size_t>(i)].s;
-      return near_real(s, s_ref) || std::abs(s) <= blur;
+      return near_real(s, s_ref, close) || std::abs(s) <= blur;
     });
     std::vector<Complex> roots;
     StartingGroup group;
