@@ -56,11 +56,8 @@ Guide trace_guide(const TraceSetup& setup) {
 
 /// Whether the spectrum belongs to the passage of the guide at this position.
 bool same(const Guide& guide, const PathPosition& position, const std::vector<Complex>& spectrum) {
-  const PathStep& step = guide.path.steps[position.step];
-  if (follows_parameter(step)) return true;
-  const ComplexVector values = guide.path.eigenvalues_at(position);
-  const std::vector<bool> in_block = in_blocks(step, static_cast<std::size_t>(values.size()));
-  return distances_from_spectrum(values, in_block, spectrum, guide.s_ref).maxCoeff() < same_passage;
+  if (follows_parameter(guide.path.steps[position.step])) return true;
+  return distances_from_spectrum(guide.path, position, spectrum, guide.s_ref).maxCoeff() < same_passage;
 }
 
 }  // namespace
@@ -137,13 +134,9 @@ void measure_path(const RecordedPath& path, const ReferenceSet& reference, Measu
   for (const ReferenceSample& sample : reference.samples) {
     const std::vector<PathPosition> positions = path.positions(sample.p);
     if (positions.size() != sample.passages.size()) continue;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const ComplexVector values = path.eigenvalues_at(positions[i]);
-      const std::vector<bool> in_block =
-          in_blocks(path.steps[positions[i].step], static_cast<std::size_t>(values.size()));
-      take_error(distances_from_spectrum(values, in_block, sample.passages[i], reference.s_ref), sample.p,
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      take_error(distances_from_spectrum(path, positions[i], sample.passages[i], reference.s_ref), sample.p,
                  run);
-    }
     ++run.measured;
   }
 }
@@ -156,11 +149,8 @@ MeasuredRun measure_interpolant(const GridLoci& loci, Interpolation kind, const 
   const GridInterpolant interpolant(loci.p[0], loci.p[1] - loci.p[0], loci.s, kind);
   for (const ReferenceSample& sample : reference.samples) {
     if (sample.passages.size() != 1) continue;
-    const ComplexVector values = interpolant(sample.p);
-    const std::vector<bool> everywhere(static_cast<std::size_t>(values.size()), true);
-    take_error(loci.both_members
-                   ? distances_from_members(values, sample.passages[0], reference.s_ref)
-                   : distances_from_spectrum(values, everywhere, sample.passages[0], reference.s_ref),
+    take_error(distances_from_spectrum(interpolant(sample.p), loci.both_members, sample.passages[0],
+                                       reference.s_ref),
                sample.p, run);
     ++run.measured;
   }

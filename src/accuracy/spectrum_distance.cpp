@@ -63,8 +63,7 @@ Vector distances(const ComplexVector& values, const std::vector<bool>& in_block,
   return result;
 }
 
-}  // namespace
-
+/// Whether each mode is part of a block of several on the step.
 std::vector<bool> in_blocks(const PathStep& step, std::size_t n_modes) {
   std::vector<bool> result(n_modes, false);
   for (const DenseBlock& block : step.blocks) {
@@ -72,6 +71,8 @@ std::vector<bool> in_blocks(const PathStep& step, std::size_t n_modes) {
   }
   return result;
 }
+
+}  // namespace
 
 std::vector<Complex> with_conjugates(const std::vector<Complex>& spectrum) {
   std::vector<Complex> members;
@@ -82,16 +83,19 @@ std::vector<Complex> with_conjugates(const std::vector<Complex>& spectrum) {
   return members;
 }
 
-Vector distances_from_spectrum(const ComplexVector& values, const std::vector<bool>& in_block,
+Vector distances_from_spectrum(const RecordedPath& path, const PathPosition& position,
                                const std::vector<Complex>& spectrum, double reference) {
+  const ComplexVector values = path.eigenvalues_at(position);
+  const std::vector<bool> in_block =
+      in_blocks(path.steps[position.step], static_cast<std::size_t>(values.size()));
   return distances(values, in_block, spectrum, with_conjugates(spectrum), reference);
 }
 
-Vector distances_from_members(const ComplexVector& values, const std::vector<Complex>& spectrum,
-                              double reference) {
+Vector distances_from_spectrum(const ComplexVector& values, bool both_members,
+                               const std::vector<Complex>& spectrum, double reference) {
   const std::vector<Complex> members = with_conjugates(spectrum);
-  return distances(values, std::vector<bool>(static_cast<std::size_t>(values.size()), true), members, members,
-                   reference);
+  const std::vector<bool> everywhere(static_cast<std::size_t>(values.size()), true);
+  return distances(values, everywhere, both_members ? members : spectrum, members, reference);
 }
 
 namespace {
@@ -155,11 +159,10 @@ Vector eigenvalue_errors(const RecordedPath& path, const PathPosition& position,
 Vector discrepancies(const RecordedPath& path, const PathPosition& position, const ComplexVector& s,
                      const std::vector<Complex>& exact, const EigenvalueAccuracy& accuracy) {
   const std::vector<bool> alone(static_cast<std::size_t>(s.size()), false);
-  const Vector distances = distances_from_spectrum(
-      s, alone, with_double_roots(exact, accuracy.tolerance * accuracy.reference), accuracy.reference);
+  const std::vector<Complex> targets = with_double_roots(exact, accuracy.tolerance * accuracy.reference);
   const Vector promised = accuracy.tolerance * s.cwiseAbs().cwiseMax(accuracy.reference);
   const Vector errors = eigenvalue_errors(path, position, s, accuracy.tolerance, accuracy);
-  Vector result = distances;
+  Vector result = distances(s, alone, targets, targets, accuracy.reference);
   for (Eigen::Index mode = 0; mode < s.size(); ++mode) {
     if (std::isfinite(errors[mode])) result[mode] *= promised[mode] / errors[mode];
   }

@@ -7,28 +7,25 @@
 
 namespace eigentrail {
 
-/// Whether each mode is part of a block of several on the step.
-std::vector<bool> in_blocks(const PathStep& step, std::size_t n_modes);
-
 /// The spectrum with both members of complex pairs, from one with one member of each.
 std::vector<Complex> with_conjugates(const std::vector<Complex>& spectrum);
 
-/// Distance of every value from the eigenvalue s that is assigned to it, one to one with the least total
-/// distance, relative to max(|s|, reference). Zero for values that are NaN (modes that do not exist).
-/// Infinite for values without an eigenvalue, if there are more values than eigenvalues. `values` and
-/// `spectrum` contain one member of each complex pair, either of them. Cost O(n^3).
+/// Distance of every mode at a place of the dense output from the eigenvalue s of the spectrum that is
+/// assigned to it, one to one with the least total distance, relative to max(|s|, reference). Zero for modes
+/// that do not exist. Infinite for modes without an eigenvalue, if there are more modes than eigenvalues.
+/// `spectrum` contains one member of each complex pair, either of them. Cost O(n^3).
 ///
-/// `in_block` has one entry per value: whether the mode is in a block of several. Where eigenvalues of a
-/// block almost coincide, they are ill-conditioned, and the tolerance of a trace refers to the functions of
-/// the block (invariants.hpp). The error of such a mode is therefore multiplied by d / (0.1 max(|s|,
-/// reference)) for every other eigenvalue at a distance d for which this factor is below 1. If the error
-/// exceeds d, it takes the place of d.
-Vector distances_from_spectrum(const ComplexVector& values, const std::vector<bool>& in_block,
+/// Where eigenvalues of a block of several modes almost coincide, they are ill-conditioned, and the tolerance
+/// of a trace refers to the functions of the block (invariants.hpp). The error of such a mode is therefore
+/// multiplied by d / (0.1 max(|s|, reference)) for every other eigenvalue at a distance d for which this
+/// factor is below 1. If the error exceeds d, it takes the place of d.
+Vector distances_from_spectrum(const RecordedPath& path, const PathPosition& position,
                                const std::vector<Complex>& spectrum, double reference);
 
-/// The same for values that contain both members of complex pairs, with all modes taken as in blocks.
-Vector distances_from_members(const ComplexVector& values, const std::vector<Complex>& spectrum,
-                              double reference);
+/// The same for values of a grid, with all modes taken as in blocks. `both_members`: they contain both
+/// members of complex pairs.
+Vector distances_from_spectrum(const ComplexVector& values, bool both_members,
+                               const std::vector<Complex>& spectrum, double reference);
 
 /// Distances of the dense output from the exact eigenvalues, |s_dense - s| / max(|s|, reference), in units of
 /// what their error may be: beside an exceptional point eigenvalues move by the root of the tolerance,
