@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "continuation/point/point_solver.hpp"
 #include "eigentrail/modes/matching.hpp"
 #include "eigentrail/modes/spectrum.hpp"
 
@@ -105,29 +106,24 @@ Modes modes_of(const PathPoint& point) {
   return modes;
 }
 
-/// a + factor (b - a) for vectors and eigenvalues: the line through a (factor 0) and b (factor 1).
-Modes along_line(const Modes& a, const Modes& b, double factor) {
+/// The place on the line through a and b, of vectors and eigenvalues, that is as far behind b as a before it.
+Modes along_secant(const Modes& a, const Modes& b) {
   Modes result = a;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    result[i].Z += factor * (b[i].Z - a[i].Z);
-    result[i].Lambda += factor * (b[i].Lambda - a[i].Lambda);
+    result[i].Z += 2.0 * (b[i].Z - a[i].Z);
+    result[i].Lambda += 2.0 * (b[i].Lambda - a[i].Lambda);
   }
   return result;
 }
 
-/// Moves modes and equilibrium along their first derivatives by h. Returns false if these are not finite.
-bool follow_tangent(PathProblem problem, const PathPoint& point, double h, Modes& modes,
-                    EquilibriumGuess& guess, RunCounts& counts) {
+/// Modes and equilibrium along their first derivatives, at distance h; empty if these are not finite.
+std::optional<Prediction> along_tangent(PathProblem problem, const PathPoint& point, double h,
+                                        RunCounts& counts) {
   problem.order = 0;  // differentiate_point computes order + 1 derivatives
   const std::optional<PathNode> node = differentiate_point(problem, point, counts);
-  if (!node) return false;
-  for (std::size_t i = 0; i < node->tracks.size(); ++i) {
-    const PairSeries& series = node->tracks[i].series;
-    modes[i].Z = series.Z[0] + h * series.Z[1];
-    modes[i].Lambda = series.Lambda[0] + h * series.Lambda[1];
-  }
-  guess = {evaluate_series(node->path.x, h), evaluate_series(node->path.lambda, h), true};
-  return true;
+  if (!node) return std::nullopt;
+  const PathFrame frame{};
+  return PointSolver(problem, frame, counts).predict(all_tracks(*node), h);
 }
 
 /// The first point, with modes from the full spectrum; empty if there is no equilibrium or spectrum.
@@ -167,15 +163,15 @@ GridLoci corrected_grid(const PathProblem& problem, const std::vector<double>& p
     loci.s.push_back(s);
     if (k + 1 == p.size()) break;
     const Modes here = modes_of(*point);
-    Modes there = here;
-    EquilibriumGuess guess{point->equilibrium.x, point->equilibrium.lambda, true};
-    if (method == Method::secant && before) there = along_line(*before, here, 2.0);
+    std::optional<Prediction> next =
+        Prediction{p[k + 1], {point->equilibrium.x, point->equilibrium.lambda, true}, here};
+    if (method == Method::secant && before) next->pairs = along_secant(*before, here);
+    if (method == Method::tangent) next = along_tangent(problem, *point, p[k + 1] - p[k], loci.counts);
     loci.message = "derivatives are not finite";
-    if (method == Method::tangent &&
-        !follow_tangent(problem, *point, p[k + 1] - p[k], there, guess, loci.counts))
-      return loci;
+    if (!next) return loci;
+    next->p = p[k + 1];
     before = here;
-    point = compute_point(problem, {p[k + 1], guess, there}, point->basis.T[0], loci.counts);
+    point = compute_point(problem, *next, point->basis.T[0], loci.counts);
   }
   loci.message.clear();
   loci.completed = true;
