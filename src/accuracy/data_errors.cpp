@@ -22,14 +22,16 @@ constexpr double infinite = 1e-13;
 /// Eigenvalues closer than this share of their magnitude are equal.
 constexpr double equal = 1e-7;
 
-/// Column j of LAPACK's real storage as a complex vector; `conjugate`: the second of a pair.
-ComplexVector column(const Matrix& vectors, Eigen::Index j, bool is_complex, bool conjugate) {
-  if (!is_complex) return vectors.col(j).cast<Complex>();
-  const Eigen::Index first = conjugate ? j - 1 : j;
-  ComplexVector result(vectors.rows());
-  result.real() = vectors.col(first);
-  result.imag() = (conjugate ? -1.0 : 1.0) * vectors.col(first + 1);
-  return result;
+/// Complex vectors from LAPACK's storage, where the real and the imaginary parts of a conjugate pair, that
+/// with a positive imaginary part of its eigenvalue first, are neighbours.
+ComplexMatrix complex_vectors(const Matrix& parts, const Vector& imaginary) {
+  ComplexMatrix vectors = parts.cast<Complex>();
+  for (Eigen::Index j = 0; j < parts.cols(); ++j) {
+    if (!(imaginary[j] > 0.0)) continue;
+    vectors.col(j).imag() = parts.col(j + 1);
+    vectors.col(j + 1) = vectors.col(j).conjugate();
+  }
+  return vectors;
 }
 
 /// Replaces entries by zero that are below rounding of others of their row and of their column: noise of the
@@ -61,15 +63,10 @@ std::vector<EigenTriple> generalized(Matrix a, Matrix b) {
       right_scale.data(), &norm_a, &norm_b, rcond_values.data(), rcond_vectors.data());
   std::vector<EigenTriple> all;
   if (info != 0) return all;
-  bool second = false;
+  const ComplexMatrix x = complex_vectors(right, imaginary), u = complex_vectors(left, imaginary);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const bool is_complex = imaginary[j] != 0.0;
     const Complex alpha(real[j], imaginary[j]);
-    const bool conjugate = is_complex && second;
-    second = is_complex && !second;
-    if (std::abs(beta[j]) <= infinite * std::abs(alpha)) continue;
-    all.push_back(
-        {alpha / beta[j], column(right, j, is_complex, conjugate), column(left, j, is_complex, conjugate)});
+    if (std::abs(beta[j]) > infinite * std::abs(alpha)) all.push_back({alpha / beta[j], x.col(j), u.col(j)});
   }
   return all;
 }
