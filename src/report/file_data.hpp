@@ -84,7 +84,7 @@ Json shapes_data(const LociFile& loci, const Hdf5File& file, const ReportBudget&
 Json excitation_data(const LociFile& loci);
 
 /// Values of the parameters of a scene in SI where the traced one, if the scene has it, is p (loci_data.cpp).
-std::vector<double> si_values(const Scene& scene, const std::string& parameter, double p);
+Vector si_values(const Scene& scene, const std::string& parameter, double p);
 
 /// Points, bodies, places on them and the links between these, from the scene; null for matrix families
 /// (geometry_data.cpp). `nodes`: points of the trace at which the parameters are evaluated.

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "eigentrail/core/errors.hpp"
 #include "eigentrail/scene/scene.hpp"
@@ -60,42 +61,25 @@ class Figure {
     return std::nullopt;
   }
 
-  std::optional<PlaceExpressions> triple(const Value* value) const {
-    const auto* array = value != nullptr ? std::get_if<Array>(&value->data) : nullptr;
-    if (array == nullptr || array->size() != 3) return std::nullopt;
-    PlaceExpressions place;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto* number = std::get_if<double>(&(*array)[i].data);
-      const auto* text = std::get_if<std::string>(&(*array)[i].data);
-      if (number == nullptr && text == nullptr) return std::nullopt;
-      place[i] =
-          number != nullptr ? Expression(*number) : Expression::parse(*text, scene_.parameters.names());
-    }
-    return place;
-  }
-
   void read_bodies() {
     for (const Table* table : tables(scene_, "body")) {
-      const auto* text = entry_as<std::string>(*table, "name");
-      if (text == nullptr || !carrier(*text)) continue;
-      if (const Value* centre = table->find("centre")) add_marker(*text, "centre", *centre);
-      const auto* markers = entry_as<Table>(*table, "markers");
-      if (markers == nullptr) continue;
-      for (const auto& [marker, at] : markers->entries) add_marker(*text, marker, at);
+      TableReader reader(scene_, *table, "[[body]]", used_);
+      const std::string name = reader.text("name");
+      const auto body = carrier(name);
+      if (!body) continue;
+      if (reader.has("centre")) markers_[name + ".centre"] = add_place(body, reader.vector("centre"));
+      if (!reader.has("markers")) continue;
+      TableReader markers = reader.table("markers");
+      for (const std::string& marker : markers.keys())
+        markers_[name + "." + marker] = add_place(body, markers.vector(marker));
     }
-  }
-
-  void add_marker(const std::string& body, const std::string& marker, const Value& at) {
-    if (const auto place = triple(&at)) markers_[body + "." + marker] = add_place(*carrier(body), *place);
   }
 
   /// The coordinates of a place at all nodes; a single triple if they are the same at all.
   Json coordinates(const PlaceExpressions& place) const {
     std::vector<Triple> list;
-    for (const std::vector<double>& values : values_) {
-      list.push_back({place[0].evaluate<double>(values), place[1].evaluate<double>(values),
-                      place[2].evaluate<double>(values)});
-    }
+    for (const Vector& values : values_)
+      list.push_back({place[0].value(values), place[1].value(values), place[2].value(values)});
     if (std::adjacent_find(list.begin(), list.end(), std::not_equal_to<>()) == list.end()) list.resize(1);
     return list;
   }
@@ -107,20 +91,22 @@ class Figure {
     return places_.size() - 1;
   }
 
-  std::optional<std::size_t> place(const Table& table, const char* key) {
-    if (const auto* name = entry_as<std::string>(table, key)) {
-      if (const auto marker = markers_.find(*name); marker != markers_.end()) return marker->second;
-      if (const auto whole = carrier(*name)) return markers_[*name] = add_place(whole, {});
-      return std::nullopt;
+  /// The place that a table names; nothing where it does not.
+  std::optional<std::size_t> place(const Table& table, const std::string& kind, const char* key) try {
+    TableReader reader(scene_, table, kind, used_);
+    if (reader.is_table(key)) {
+      TableReader inner = reader.table(key);
+      const auto body = carrier(inner.text("body"));
+      return body ? std::optional(add_place(body, inner.vector("at"))) : std::nullopt;
     }
-    if (const auto* inner = entry_as<Table>(table, key)) {
-      const auto* name = entry_as<std::string>(*inner, "body");
-      const auto local = triple(inner->find("at"));
-      if (name == nullptr || !local || !carrier(*name)) return std::nullopt;
-      return add_place(carrier(*name), *local);
-    }
-    const auto fixed = triple(table.find(key));
-    return fixed ? std::optional(add_place(std::nullopt, *fixed)) : std::nullopt;
+    const NameOrPosition given = reader.name_or_position(key);
+    if (const auto* fixed = std::get_if<PlaceExpressions>(&given)) return add_place(std::nullopt, *fixed);
+    const auto& name = std::get<std::string>(given);
+    if (const auto marker = markers_.find(name); marker != markers_.end()) return marker->second;
+    if (const auto whole = carrier(name)) return markers_[name] = add_place(whole, {});
+    return std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
   }
 
   /// Adds a line for a table with two ends. A follower force is left out: its two places give only its
@@ -128,14 +114,15 @@ class Figure {
   void read_link(const std::string& kind, const Table& table) {
     if (kind == "follower_force") return;
     const bool bearing = kind == "bearing" || kind == "internal_damping";
-    const auto from = place(table, bearing ? (kind == "bearing" ? "seat" : "about") : "from");
-    const auto to = place(table, bearing ? "point" : "to");
+    const auto from = place(table, kind, bearing ? (kind == "bearing" ? "seat" : "about") : "from");
+    const auto to = place(table, kind, bearing ? "point" : "to");
     if (from && to) lines_.push_back({{"kind", kind}, {"from", *from}, {"to", *to}});
   }
 
   Scene scene_;
   Json carriers_;
-  std::vector<std::vector<double>> values_;  ///< SI values of the parameters at every node
+  std::vector<Vector> values_;  ///< SI values of the parameters at every node
+  std::set<int> used_;          ///< parameters of the scene that places depend on
   std::map<std::string, std::size_t> markers_;
   Json places_ = Json::array();
   Json lines_ = Json::array();
@@ -148,8 +135,6 @@ Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes) 
     return Figure(loci, nodes).data();
   } catch (const InputError&) {
     return nullptr;  // a scene that this version cannot read: the page shows shapes without a figure
-  } catch (const ExpressionError&) {
-    return nullptr;
   }
 }
 

@@ -108,12 +108,10 @@ Json ranges_data(const std::vector<StableRange>& ranges) {
   return list;
 }
 
-std::vector<double> si_values(const Scene& scene, const std::string& parameter, double p) {
-  const Vector declared = scene.parameters.declared_values();
-  std::vector<double> values(declared.begin(), declared.end());
-  if (const auto index = scene.parameters.index(parameter)) values[static_cast<std::size_t>(*index)] = p;
-  scene.parameters.to_si<double>(values);
-  return values;
+Vector si_values(const Scene& scene, const std::string& parameter, double p) {
+  Vector values = scene.parameters.declared_values();
+  if (const auto index = scene.parameters.index(parameter)) values[*index] = p;
+  return scene.parameters.in_si(values);
 }
 
 Json excitation_data(const LociFile& loci) {
@@ -130,10 +128,9 @@ Json excitation_data(const LociFile& loci) {
     std::vector<double> parameters, frequencies;
     for (int i = 0; i <= places; ++i) {
       const double p = loci.lowest() + (loci.highest() - loci.lowest()) * i / places;
-      const std::vector<double> values = si_values(scene, loci.parameter, p);
+      const Vector values = si_values(scene, loci.parameter, p);
       parameters.push_back(p);
-      frequencies.push_back(events.excitation ? events.excitation->evaluate<double>(values)
-                                              : values[static_cast<std::size_t>(*index)]);
+      frequencies.push_back(events.excitation ? events.excitation->value(values) : values[*index]);
     }
     return {{"parameter", parameters},
             {"frequency", frequencies},
