@@ -44,14 +44,17 @@ Census census_at(const CheckedFile& file, const PathPosition& place, double leve
   return census;
 }
 
+/// Whether a mode passes through infinity on a step.
+bool has_infinity(const PathStep& step) {
+  return std::ranges::find(step.blocks, Chart::reciprocal, &DenseBlock::chart) != step.blocks.end();
+}
+
 /// The change of the number of growing eigenvalues that the events say, as the path goes from one stored
 /// point to another; empty where the path turns or branches, and where a mode passes through infinity.
 std::optional<int> change_by_events(const CheckedFile& file, std::size_t from, std::size_t to) {
   const LociFile& loci = file.loci;
   for (std::size_t step = from; step < to; ++step) {
-    for (const DenseBlock& block : loci.steps[step].blocks) {
-      if (block.chart == Chart::reciprocal) return std::nullopt;
-    }
+    if (has_infinity(loci.steps[step])) return std::nullopt;
   }
   int change = 0;
   for (const Event& event : file.events) {
@@ -70,11 +73,9 @@ std::optional<int> change_by_events(const CheckedFile& file, std::size_t from, s
 bool goes_on(const CheckedFile& file, std::size_t step) {
   const ComplexVector s = file.loci.eigenvalues_at(PathPosition{step, 0.0});
   Eigen::Index modes = 0;
-  for (const DenseBlock& block : file.loci.steps[step].blocks) {
-    if (block.chart == Chart::reciprocal) return false;
+  for (const DenseBlock& block : file.loci.steps[step].blocks)
     modes += static_cast<Eigen::Index>(block.modes.size());
-  }
-  return modes == (s.array().isFinite()).count();
+  return !has_infinity(file.loci.steps[step]) && modes == (s.array().isFinite()).count();
 }
 
 bool has_collision(const CheckedFile& file, std::size_t from, std::size_t to) {
