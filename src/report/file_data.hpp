@@ -86,6 +86,10 @@ Json excitation_data(const LociFile& loci);
 /// Values of the parameters of a scene in SI where the traced one, if the scene has it, is p (loci_data.cpp).
 Vector si_values(const Scene& scene, const std::string& parameter, double p);
 
+/// Points (3 coordinates) and bodies (12 coordinates: origin and three axes) by the names of all coordinates:
+/// objects with name, first, the index of the first coordinate, and body (geometry_data.cpp).
+Json carriers_data(const std::vector<std::string>& coordinates);
+
 /// Points, bodies, places on them and the links between these, from the scene; null for matrix families
 /// (geometry_data.cpp). `nodes`: points of the trace at which the parameters are evaluated.
 Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes);

@@ -17,26 +17,11 @@ namespace {
 using Triple = std::array<double, 3>;
 using PlaceExpressions = std::array<Expression, 3>;
 
-/// Points (3 coordinates) and bodies (12 coordinates: origin and three axes). `first`: index of the first
-/// coordinate.
-Json carriers(const std::vector<std::string>& coordinates) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i + 2 < coordinates.size(); ++i) {
-    const std::string& name = coordinates[i];
-    if (!name.ends_with(".x") || name.ends_with("_axis.x")) continue;
-    const std::string base = name.substr(0, name.size() - 2);
-    if (coordinates[i + 1] != base + ".y" || coordinates[i + 2] != base + ".z") continue;
-    const bool body = i + 11 < coordinates.size() && coordinates[i + 3] == base + ".x_axis.x";
-    list.push_back({{"name", base}, {"first", i}, {"body", body}});
-  }
-  return list;
-}
-
 class Figure {
  public:
   Figure(const LociFile& loci, const std::vector<std::size_t>& nodes)
       : scene_(parse_scene(loci.attribute("scene"), loci.attribute("scene_path"))),
-        carriers_(carriers(loci.coordinates)) {
+        carriers_(carriers_data(loci.coordinates)) {
     for (const std::size_t node : nodes) values_.push_back(si_values(scene_, loci.parameter, loci.p[node]));
     read_bodies();
     for (const auto& [kind, value] : scene_.root.entries) {
@@ -129,6 +114,19 @@ class Figure {
 };
 
 }  // namespace
+
+Json carriers_data(const std::vector<std::string>& coordinates) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i + 2 < coordinates.size(); ++i) {
+    const std::string& name = coordinates[i];
+    if (!name.ends_with(".x") || name.ends_with("_axis.x")) continue;
+    const std::string base = name.substr(0, name.size() - 2);
+    if (coordinates[i + 1] != base + ".y" || coordinates[i + 2] != base + ".z") continue;
+    const bool body = i + 11 < coordinates.size() && coordinates[i + 3] == base + ".x_axis.x";
+    list.push_back({{"name", base}, {"first", i}, {"body", body}});
+  }
+  return list;
+}
 
 Json geometry_data(const LociFile& loci, const std::vector<std::size_t>& nodes) {
   try {

@@ -12,6 +12,7 @@
 #include "eigentrail/report/report.hpp"
 #include "eigentrail/store/output_file.hpp"
 #include "engine.hpp"
+#include "report/file_data.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -129,6 +130,9 @@ void add_files(py::module_& module) {
   module.def("import_formats", &formats);
   module.def("read_file", &read_file);
   module.def("write_files", &write_files);
+  module.def("carriers", [](const std::vector<std::string>& coordinates) {
+    return page_json(carriers_data(coordinates));
+  });
   module.def("drawing_data", &drawing_data, py::call_guard<py::gil_scoped_release>());
 }
 

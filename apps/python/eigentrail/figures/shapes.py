@@ -66,7 +66,7 @@ class _Carriers:
     """Points and bodies of a scene at a stored point, with the places on them and the links between these."""
 
     def __init__(self, loci, node):
-        found = geometry(loci, node) or {"carriers": _from_names(list(map(str, loci.coordinate.values))), "places": [], "lines": []}
+        found = geometry(loci, node)
         carriers = found["carriers"]  # none if the coordinates are not those of points and bodies
         self.names, self.first, self.body = ([one[key] for one in carriers] for key in ("name", "first", "body"))
         self.places = [(place["carrier"], np.array(place["at"][0], float)) for place in found["places"]]
@@ -100,19 +100,6 @@ class _Carriers:
                       for origins, _, places in moved)
         radius = self.radius() if self.radius() > 1e-8 else 1.0
         return LARGEST * radius / largest if largest > 0 else 0.0
-
-
-def _from_names(coordinates):
-    """Points and bodies by the names of their coordinates: "blade.x", "blade.y", "blade.z", "blade.x_axis.x", ..."""
-    carriers = []
-    for i, name in enumerate(coordinates[:-2]):
-        if not name.endswith(".x") or name.endswith("_axis.x"):
-            continue
-        base = name[:-2]
-        if coordinates[i + 1:i + 3] == [f"{base}.y", f"{base}.z"]:
-            body = i + 11 < len(coordinates) and coordinates[i + 3] == f"{base}.x_axis.x"
-            carriers.append({"name": base, "first": i, "body": body})
-    return carriers
 
 
 def _common_axis(origins):
