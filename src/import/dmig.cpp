@@ -101,30 +101,25 @@ class DmigReader {
   }
 
   DmigFreedom freedom(std::string_view point, std::string_view component) const {
-    const auto number = whole_number_of(point);
-    const auto direction = component.empty() ? std::optional<long>(0) : whole_number_of(component);
-    if (!number || *number < 1 || *number > most_points)
-      lines_.fail("expected the number of a point, found " + shown(point));
-    if (!direction || *direction < 0 || *direction > 6)
-      lines_.fail("expected a component from 0 to 6, found " + shown(component));
-    return {static_cast<std::int32_t>(*number), static_cast<std::int32_t>(*direction)};
+    const long number = lines_.whole(point, "expected the number of a point", 1, most_points);
+    const long direction =
+        component.empty() ? 0 : lines_.whole(component, "expected a component from 0 to 6", 0, 6);
+    return {static_cast<std::int32_t>(number), static_cast<std::int32_t>(direction)};
   }
 
   /// Point, component, real and imaginary part of each entry, from field `begin` on.
   void read_entries(const std::vector<std::string_view>& fields, std::size_t begin) {
     DmigMatrix& matrix = matrices_[matrix_];
+    const std::string expected = "matrix " + printable(matrix.name) + ": expected a finite number";
     for (std::size_t i = begin; i + 3 < fields.size(); i += 4) {
       if (fields[i].empty() && fields[i + 1].empty() && fields[i + 2].empty()) continue;
       const DmigFreedom row = freedom(fields[i], fields[i + 1]);
-      const auto value = number_of(fields[i + 2]);
-      if (!value || !std::isfinite(*value))
-        lines_.fail("matrix " + printable(matrix.name) + ": expected a finite number, found " +
-                    shown(fields[i + 2]));
+      const double value = lines_.number(fields[i + 2], expected);
       if (!matrix.fault.empty()) continue;
       if (++entries_ > limits::matrix_numbers)
         lines_.fail("more than " + std::to_string(limits::matrix_numbers) + " entries");
       matrix.digits = std::max(matrix.digits, printed_digits(fields[i + 2]));
-      matrix.entries.push_back({row, at_, *value});
+      matrix.entries.push_back({row, at_, value});
     }
   }
 

@@ -38,7 +38,7 @@ class ElastoDynBladeReader {
         {"AdjFlSt", &blade_.flap_factor},    {"AdjEdSt", &blade_.edge_factor}};
     for (const auto& [name, value] : values) {
       if (!has_name(words, name)) continue;
-      *value = lines_.number(words[0], name);
+      *value = lines_.number(words[0], std::string(name) + ": expected a number");
       const bool may_be_zero = std::string_view(name).find("Dmp") != std::string_view::npos;
       if (*value < 0.0 || (*value == 0.0 && !may_be_zero))
         lines_.fail(std::string(name) + ": expected a " +
@@ -105,7 +105,7 @@ ElastoDynRotor parse_elastodyn_rotor(std::string_view text, const std::string& p
   for (auto words = lines.next(); !words.empty(); words = lines.next()) {
     for (const auto& [name, value] : wanted) {
       if (!has_name(words, name)) continue;
-      *value = lines.number(words[0], name);
+      *value = lines.number(words[0], name + ": expected a number");
       found.insert(name);
     }
     if (has_name(words, "BldFile(1)") || has_name(words, "BldFile1"))

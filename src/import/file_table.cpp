@@ -1,7 +1,6 @@
 #include "import/file_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "core/texts.hpp"
@@ -68,11 +67,9 @@ class TableOfFiles {
     if (cells.size() != table_.columns.size() + 1)
       lines_.fail("the row has " + std::to_string(cells.size()) + " cells; expected " +
                   std::to_string(table_.columns.size() + 1));
-    const auto value = number_of(cells[0]);
-    if (!value || !std::isfinite(*value))
-      lines_.fail("expected a value of " + table_.parameter + ", found " + shown(cells[0]));
-    if (std::find(table_.values.begin(), table_.values.end(), *value) != table_.values.end())
-      lines_.fail("the value " + exact_text(*value) + " of " + table_.parameter + " is there already");
+    const double value = lines_.number(cells[0], "expected a value of " + table_.parameter);
+    if (std::find(table_.values.begin(), table_.values.end(), value) != table_.values.end())
+      lines_.fail("the value " + exact_text(value) + " of " + table_.parameter + " is there already");
     if (table_.values.size() == limits::samples)
       lines_.fail("more than " + std::to_string(limits::samples) + " rows");
     std::vector<std::string> files;
@@ -80,7 +77,7 @@ class TableOfFiles {
       if (cells[i].empty()) lines_.fail("no file for " + printable(table_.columns[i - 1]));
       files.push_back((std::filesystem::path(table_.path).parent_path() / cells[i]).string());
     }
-    table_.values.push_back(*value);
+    table_.values.push_back(value);
     table_.files.push_back(std::move(files));
   }
 

@@ -120,14 +120,11 @@ class LinReader {
     if (words.size() != count)
       lines_.fail("row " + std::to_string(r + 1) + " of A has " + std::to_string(words.size()) +
                   " numbers; expected " + std::to_string(count));
+    const std::string expected = "row " + std::to_string(r + 1) + " of A: expected a number";
     std::vector<double> result;
     for (const std::string_view word : words) {
-      const auto value = number_of(word);
-      if (!value || !std::isfinite(*value))
-        lines_.fail("row " + std::to_string(r + 1) + " of A: expected a number, found '" +
-                    std::string(word.substr(0, 40)) + "'");
+      result.push_back(lines_.number(word, expected));
       file_.digits = std::max(file_.digits, printed_digits(word));
-      result.push_back(*value);
     }
     return result;
   }

@@ -1,7 +1,6 @@
 #include "import/market_file.hpp"
 
 #include <array>
-#include <cmath>
 
 #include "core/texts.hpp"
 #include "eigentrail/scene/limits.hpp"
@@ -82,11 +81,7 @@ class MarketReader {
                   std::string(array_ ? "rows and columns" : "rows, columns and number of entries") +
                   ", found " + std::to_string(words.size()) + (words.size() == 1 ? " word" : " words"));
     std::array<long, 3> sizes{};
-    for (std::size_t i = 0; i < expected; ++i) {
-      const auto number = whole_number_of(words[i]);
-      if (!number || *number < 0) lines_.fail("expected a size, found " + shown(words[i]));
-      sizes[i] = *number;
-    }
+    for (std::size_t i = 0; i < expected; ++i) sizes[i] = lines_.whole(words[i], "expected a size", 0);
     const auto [rows, columns, entries] = sizes;
     const long most = array_ ? limits::matrix_rows : static_cast<long>(limits::sparse_rows);
     if (rows < 1 || columns < 1 || rows > most || columns > most)
@@ -114,7 +109,7 @@ class MarketReader {
     if (words.size() != expected)
       lines_.fail("expected " + std::to_string(expected) + " numbers, found " + std::to_string(words.size()));
     const long r = index(words[0], rows_, "row"), c = index(words[1], columns_, "column");
-    double value = pattern_ ? 1.0 : real(words[2]);
+    const double value = pattern_ ? 1.0 : real(words[2]);
     if (complex_) check_imaginary(words[3]);
     add(r, c, value);
   }
@@ -127,11 +122,7 @@ class MarketReader {
     return *number - 1;
   }
 
-  double real(std::string_view word) {
-    const auto value = number_of(word);
-    if (!value || !std::isfinite(*value)) lines_.fail("expected a finite number, found " + shown(word));
-    return *value;
-  }
+  double real(std::string_view word) { return lines_.number(word, "expected a finite number"); }
 
   void check_imaginary(std::string_view word) {
     if (real(word) != 0.0) lines_.fail("the matrix is complex; expected real numbers");

@@ -37,12 +37,9 @@ class Op4TextReader {
  private:
   /// The whole number in some columns of a line.
   long whole(std::string_view line, std::size_t begin, std::size_t width) {
-    const std::string_view field = columns_of_line(line, begin, width);
-    const auto number = whole_number_of(field);
-    if (!number)
-      lines_.fail("expected a whole number in columns " + std::to_string(begin + 1) + " to " +
-                  std::to_string(begin + width) + ", found '" + printable(std::string(field)) + "'");
-    return *number;
+    return lines_.whole(columns_of_line(line, begin, width), "expected a whole number in columns " +
+                                                                 std::to_string(begin + 1) + " to " +
+                                                                 std::to_string(begin + width));
   }
 
   std::string_view next_line() {

@@ -38,6 +38,18 @@ void TextLines::fail(const std::string& message) const {
   throw InputError(path_ + ":" + std::to_string(line_) + ": " + message);
 }
 
+double TextLines::number(std::string_view word, std::string_view expected) const {
+  const auto value = number_of(word);
+  if (!value || !std::isfinite(*value)) fail(std::string(expected) + ", found " + shown(word));
+  return *value;
+}
+
+long TextLines::whole(std::string_view word, std::string_view expected, long least, long most) const {
+  const auto value = whole_number_of(word);
+  if (!value || *value < least || *value > most) fail(std::string(expected) + ", found " + shown(word));
+  return *value;
+}
+
 std::string_view columns_of_line(std::string_view line, std::size_t begin, std::size_t width) {
   return begin < line.size() ? trimmed(line.substr(begin, width)) : std::string_view();
 }
@@ -113,17 +125,9 @@ std::vector<std::string_view> InputLines::next() {
   return {};
 }
 
-double InputLines::number(std::string_view word, const std::string& what) const {
-  const auto value = number_of(word);
-  if (!value || !std::isfinite(*value)) fail(what + ": expected a number, found " + shown(word));
-  return *value;
-}
-
 std::size_t InputLines::count(std::string_view word, const std::string& what, std::size_t most) const {
-  const auto value = whole_number_of(word);
-  if (!value || *value < 1 || *value > static_cast<long>(most))
-    fail(what + ": expected a whole number from 1 to " + std::to_string(most) + ", found " + shown(word));
-  return static_cast<std::size_t>(*value);
+  const std::string expected = what + ": expected a whole number from 1 to " + std::to_string(most);
+  return static_cast<std::size_t>(whole(word, expected, 1, static_cast<long>(most)));
 }
 
 std::vector<double> InputLines::row(const std::vector<std::string_view>& words, std::size_t count,
@@ -138,7 +142,7 @@ std::vector<double> InputLines::row(const std::vector<std::string_view>& words, 
     if (!number_of(word) && !values.empty())
       fail(what + " has " + std::to_string(values.size()) + " numbers before " + shown(word) + "; expected " +
            std::to_string(count));
-    values.push_back(number(word, what));
+    values.push_back(number(word, what + ": expected a number"));
   }
   if (values.size() < count)
     fail(what + " has " + std::to_string(values.size()) + " numbers; expected " + std::to_string(count));

@@ -1,6 +1,7 @@
 // Lines and words of text files of other programs, with errors that name the line.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,12 @@ class TextLines {
   std::optional<std::string_view> next();
   int line() const { return line_; }
   [[noreturn]] void fail(const std::string& message) const;
+
+  /// A word as a finite number. `expected` begins the message where it is none: "expected a number".
+  double number(std::string_view word, std::string_view expected) const;
+  /// A word as a whole number from `least` to `most`.
+  long whole(std::string_view word, std::string_view expected, long least = std::numeric_limits<long>::min(),
+             long most = std::numeric_limits<long>::max()) const;
 
  private:
   std::string_view rest_;
@@ -52,15 +59,14 @@ int printed_digits(std::string_view word);
 class InputLines : private TextLines {
  public:
   using TextLines::fail;
+  using TextLines::number;
   using TextLines::TextLines;
 
   /// The words of the next line, or nothing at the end. Commas separate words, too, and texts in quotes are
   /// one word.
   std::vector<std::string_view> next();
 
-  /// A word of the current line as a finite number. `what` says in messages what it is.
-  double number(std::string_view word, const std::string& what) const;
-  /// A word as a whole number from 1 to `most`.
+  /// A word as a whole number from 1 to `most`. `what` says in messages what it is.
   std::size_t count(std::string_view word, const std::string& what, std::size_t most) const;
   /// The first `count` words as finite numbers. What follows must not be a number.
   std::vector<double> row(const std::vector<std::string_view>& words, std::size_t count,
