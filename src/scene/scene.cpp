@@ -19,17 +19,14 @@ std::string at(SourceLocation where) {
 
 /// The traced parameter of a scene with a family of matrices, still without a value.
 std::optional<Parameter> family_variable(const Table& root) {
-  const Value* trace = root.find("trace");
+  const auto* trace = entry_as<Table>(root, "trace");
   const bool family = root.find("matrix_family") != nullptr || root.find("sampled_family") != nullptr;
   if (trace == nullptr || !family) return std::nullopt;
-  const auto* fields = std::get_if<Table>(&trace->data);
-  if (fields == nullptr) return std::nullopt;
-  const Value* value = fields->find("parameter");
-  const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+  const auto* name = entry_as<std::string>(*trace, "parameter");
   if (name == nullptr || !is_parameter_name(*name)) return std::nullopt;
   Parameter parameter;
   parameter.name = *name;
-  parameter.where = value->where;
+  parameter.where = trace->find("parameter")->where;
   return parameter;
 }
 
@@ -318,9 +315,7 @@ std::vector<int> unused_parameters(const Scene& scene, const std::set<int>& used
 
 std::string traced_parameter(const Scene& scene) {
   for (const Table* trace : tables(scene, "trace")) {
-    const Value* value = trace->find("parameter");
-    const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
-    if (name != nullptr) return *name;
+    if (const auto* name = entry_as<std::string>(*trace, "parameter")) return *name;
   }
   return "";
 }
@@ -328,9 +323,7 @@ std::string traced_parameter(const Scene& scene) {
 std::vector<std::string> trimmed_parameters(const Scene& scene) {
   std::vector<std::string> names;
   for (const Table* trim : tables(scene, "trim")) {
-    const Value* unknown = trim->find("unknown");
-    const auto* name = unknown == nullptr ? nullptr : std::get_if<std::string>(&unknown->data);
-    if (name != nullptr) names.push_back(*name);
+    if (const auto* name = entry_as<std::string>(*trim, "unknown")) names.push_back(*name);
   }
   return names;
 }
