@@ -65,7 +65,7 @@ std::unique_ptr<UnfinishedRun> saved_pieces(const SharedJob& job, OutputChoice& 
   if (!unfinished->other_kernel().empty())
     warn(output.path + ": was computed with another kernel of BLAS (" + unfinished->other_kernel() +
          "); the last digits differ from those of a run on one machine");
-  job.check_more_files();
+  if (job.check_more_files) job.check_more_files();
   check_new_output(output.path, output.force, output.part ? part_of_a_run : job.format);
   return unfinished;
 }
@@ -78,7 +78,7 @@ int carry_out(SharedJob job, OutputChoice& output, Team& team) {
   const auto unfinished = saved_pieces(job, output, team);
   // All processes of the team meet here: none looks any more for what an earlier run has left.
   std::unique_ptr<Workers> workers = team.workers(job.jobs);
-  if (unfinished && job.leaves_more_files && team.leads()) unfinished->begin();
+  if (unfinished && job.check_more_files && team.leads()) unfinished->begin();
   if (unfinished) workers = std::make_unique<SavingWorkers>(std::move(workers), *unfinished);
   const std::vector<std::size_t> numbers = job.run.pieces();
   ProgressBar progress(output.quiet);

@@ -34,9 +34,9 @@ struct SharedJob {
   /// Makes the output of all pieces, in every process, and writes it in the one that leads. Returns the exit
   /// code.
   std::function<int(const ComputedRun&)> finish = {};
-  bool writes = true;              ///< without an output nothing is saved and nothing resumed
-  bool leaves_more_files = false;  ///< pieces leave files behind before the first of them is finished
-  std::function<void()> check_more_files = [] {};  ///< the same as for the output
+  bool writes = true;  ///< without an output nothing is saved and nothing resumed
+  /// Of pieces that leave files behind before the first of them is finished: checks these as the output.
+  std::function<void()> check_more_files = {};
   /// Whether an output that is there is the whole one of this run; else the mark in the file says it.
   std::function<bool()> is_whole = {};
   PiecesByName known = {};  ///< pieces that other runs have computed

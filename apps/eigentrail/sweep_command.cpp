@@ -312,7 +312,6 @@ int run_sweep(SweepArguments& arguments, Team& team) {
   list.path = (folder / (list.part ? part_ending(*list.part) : "index.csv")).string();
   SharedJob job = sweep_job(shared_run(scene, arguments, runs), list);
   job.jobs = arguments.jobs;
-  job.leaves_more_files = true;
   job.is_whole = [&] { return has_index(list.path, path, scene, runs, options); };
   job.check_more_files = [&] {
     const std::vector<std::size_t> numbers = list.part.value_or(Part{}).pieces(runs.size());
