@@ -217,22 +217,19 @@ void write_csv(const std::vector<ExportTable>& tables, const ExportArguments& ar
   }
 }
 
-bool ends_in(const std::string& path, const char* ending) {
-  return std::filesystem::path(path).extension() == ending;
-}
-
 int run_export(ExportArguments& arguments) {
   arguments.output.name_like(arguments.file, arguments.json ? ".json" : "_csv");
   if (arguments.points == 1 || arguments.points < 0)
     throw InputError("--points " + std::to_string(arguments.points) + ": expected two or more");
   if (arguments.csv && arguments.json) throw InputError("--csv and --json: expected one of them");
-  const bool json = arguments.json || (!arguments.csv && ends_in(arguments.output.path, ".json"));
-  if (json != ends_in(arguments.output.path, ".json"))
+  const std::filesystem::path ending = std::filesystem::path(arguments.output.path).extension();
+  const bool json = arguments.json || (!arguments.csv && ending == ".json");
+  if (json != (ending == ".json"))
     throw InputError(arguments.output.path +
                      (json ? ": expected a name that ends in .json" : ": --csv writes no JSON"));
   const LociFile loci = read_loci(arguments.file);
   if (loci.n_nodes() == 0) throw InputError(arguments.file + ": holds no points");
-  const bool to_file = !json && ends_in(arguments.output.path, ".csv");
+  const bool to_file = !json && ending == ".csv";
   const std::vector<ExportTable> tables = tables_of(loci, arguments, to_file);
   if (json) {
     write_json(loci, tables, arguments);
