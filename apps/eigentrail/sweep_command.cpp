@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,32 +71,33 @@ class Combinations {
 };
 
 /// The least damping ratio -Re s / |s| of the complex pairs of a path, and where it is, at the points of the
-/// trace and at places between them.
+/// trace and at places between them; NaN if it has no pairs.
 struct LeastDamping {
-  double ratio = 0.0, p = 0.0;
+  double ratio = NAN, p = NAN;
 };
 
-/// What a run has come to: a line of the index of the sweep.
+/// What a run has come to: a line of the index of the sweep. Numbers that are not known are NaN.
 struct SweepRow {
   std::size_t run = 0;         ///< from 1
   std::string file;            ///< the loci file's name; empty if none was written
   std::vector<double> values;  ///< of the varied parameters
   int exit_code = 0;           ///< that of `eigentrail trace`
   int points = 0;
-  double reached = 0.0;                       ///< last value of the traced parameter; NaN without points
-  std::optional<double> flutter, divergence;  ///< where the first one of the trace is
-  std::optional<LeastDamping> damping;
+  double reached = NAN;                    ///< last value of the traced parameter
+  double flutter = NAN, divergence = NAN;  ///< where the first one of the trace is
+  LeastDamping damping = {};
   std::string reason;  ///< why the run failed; empty if it did not
 };
 
 /// Places of a step at which damping ratios are looked at, beside its ends.
 constexpr int places_per_step = 16;
 
-std::optional<double> first_of(Onset onset, const std::vector<Event>& events,
-                               const std::vector<StableRange>& ranges, double from) {
-  std::optional<double> first;
+/// NaN if there is none.
+double first_of(Onset onset, const std::vector<Event>& events, const std::vector<StableRange>& ranges,
+                double from) {
+  double first = NAN;
   const auto take = [&](double p) {
-    if (!first || std::abs(p - from) < std::abs(*first - from)) first = p;
+    if (std::isnan(first) || std::abs(p - from) < std::abs(first - from)) first = p;
   };
   for (const Event& event : events) {
     if (onset_at(event, ranges) == onset) take(event.p);
@@ -115,15 +115,15 @@ TraceSetup setup_of(const Scene& scene, const std::vector<std::string>& settings
   return prepare_trace(with_settings(scene, settings).scene, options);
 }
 
-std::optional<LeastDamping> least_damping(const RecordedPath& path) {
-  std::optional<LeastDamping> least;
+LeastDamping least_damping(const RecordedPath& path) {
+  LeastDamping least;
   for (std::size_t step = 0; step < path.steps.size(); ++step) {
     for (int k = 0; k <= places_per_step; ++k) {
       const PathPosition at{step, static_cast<double>(k) / places_per_step};
       for (const Complex s : path.eigenvalues_at(at)) {
         if (!std::isfinite(std::abs(s)) || s.imag() == 0.0) continue;
         const double ratio = -s.real() / std::abs(s);
-        if (!least || ratio < least->ratio) least = {ratio, path.parameter_at(at)};
+        if (std::isnan(least.ratio) || ratio < least.ratio) least = {ratio, path.parameter_at(at)};
       }
     }
   }
@@ -159,9 +159,8 @@ std::string index_header(const std::vector<Varied>& varied) {
 std::string index_line(const SweepRow& row) {
   std::vector<Cell> cells{count(row.run), row.file};
   cells.insert(cells.end(), row.values.begin(), row.values.end());
-  const LeastDamping damping = row.damping.value_or(LeastDamping{NAN, NAN});
-  cells.insert(cells.end(), {count(row.exit_code), count(row.points), row.reached, row.flutter.value_or(NAN),
-                             row.divergence.value_or(NAN), damping.ratio, damping.p, printable(row.reason)});
+  cells.insert(cells.end(), {count(row.exit_code), count(row.points), row.reached, row.flutter,
+                             row.divergence, row.damping.ratio, row.damping.p, printable(row.reason)});
   return csv_line(cells, "");
 }
 
@@ -170,7 +169,6 @@ std::string index_line(const SweepRow& row) {
 SweepRow run_of_sweep(const Scene& scene, const std::vector<std::string>& settings,
                       const OptionTexts& options, const std::string& path, const SaveOptions& saving) {
   SweepRow row;
-  row.reached = std::nan("");
   try {
     TraceSetup setup = setup_of(scene, settings, options);
     project_if_large(setup.model, setup.options);
