@@ -39,6 +39,9 @@ struct NastranMatrix : DmigMatrix {
   bool from_bulk = false;  ///< it is DMIG
 };
 
+/// The matrix of each role; null: none.
+using Chosen = std::array<const NastranMatrix*, roles.size()>;
+
 /// The matrices of one operating point.
 struct PointFiles {
   std::vector<std::string> files;
@@ -168,7 +171,7 @@ class NastranImport {
     for (const std::string& file : point.files) {
       for (NastranMatrix& one : matrices_in(file)) all.push_back(std::move(one));
     }
-    std::array<const NastranMatrix*, roles.size()> own{};
+    Chosen own{};
     for (std::size_t i = 0; i < roles.size(); ++i) own[i] = chosen(all, roles[i]);
     if (own[2] == nullptr || (own[0] == nullptr && own[1] == nullptr))
       throw InputError(all.front().file + ": no " + (own[2] == nullptr ? "stiffness" : "mass") + "; " +
@@ -188,8 +191,7 @@ class NastranImport {
   }
 
   /// Keeps what is to be said, from the first operating point.
-  void note(const std::vector<NastranMatrix>& all,
-            const std::array<const NastranMatrix*, roles.size()>& own) {
+  void note(const std::vector<NastranMatrix>& all, const Chosen& own) {
     for (const NastranMatrix* one : own) {
       if (one == nullptr) continue;
       digits_ = std::min(digits_, one->digits);
@@ -209,7 +211,7 @@ class NastranImport {
     if (!others.empty()) result_.understood.push_back("not read: " + others);
   }
 
-  static void check_kinds(const std::array<const NastranMatrix*, roles.size()>& own) {
+  static void check_kinds(const Chosen& own) {
     for (const NastranMatrix* one : own) {
       if (one != nullptr && one->from_bulk != own[2]->from_bulk)
         throw InputError(one->file + ": matrix " + printable(one->name) + " and " + printable(own[2]->name) +
@@ -226,7 +228,7 @@ class NastranImport {
                        " numbers in all matrices together");
   }
 
-  void add_dense(const std::array<const NastranMatrix*, roles.size()>& own) {
+  void add_dense(const Chosen& own) {
     SampledData& data = result_.samples;
     for (std::size_t i = 0; i < roles.size(); ++i) {
       if (own[i] == nullptr) continue;
@@ -242,7 +244,7 @@ class NastranImport {
   }
 
   /// Rows and columns are the points and components of all matrices, in ascending order.
-  void add_bulk(const std::array<const NastranMatrix*, roles.size()>& own, const std::string& file) {
+  void add_bulk(const Chosen& own, const std::string& file) {
     std::vector<DmigFreedom> freedoms;
     for (const NastranMatrix* one : own) {
       if (one == nullptr) continue;
