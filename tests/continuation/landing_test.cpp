@@ -1,12 +1,10 @@
-// Cutting a step at the first place that it passes: the end of the range, a fold, a meeting of eigenvalues.
-// All places are known in closed form.
+// Cutting a step at the first meeting of eigenvalues that it passes. All places are known in closed form.
 #include "continuation/events/landing.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "continuation/on_path.hpp"
 #include "continuation/planted_search.hpp"
 
 namespace eigentrail::test::landing_test {
@@ -47,13 +45,6 @@ TEST(Land, EndsAStepOnACollision) {
     EXPECT_NEAR(std::abs(met.meeting.puiseux), 1.0, 1e-9);
     EXPECT_EQ(landed.step.meeting, std::vector<std::size_t>{0});
   }
-}
-
-TEST(Land, DoesSoAgainstTheDirectionOfTheParameter) {
-  From from(towards_the_axis(0.5), 0.9, pair_at(0.5, 0.9));
-  const LandedStep landed = from.land(-0.3);
-  EXPECT_NEAR(landed.step.h, -0.15, 1e-13);
-  EXPECT_EQ(landed.meetings.size(), 1U);
 }
 
 TEST(Land, LeavesAStepAloneThatPassesNothing) {
@@ -189,53 +180,6 @@ TEST(Land, CountsItsWorkAsThatOfEvents) {
   ASSERT_TRUE(land(solver, step, false));
   EXPECT_EQ(counts.modes.factorizations, modes);
   EXPECT_GT(counts.event_factorizations, 0U);
-}
-
-/// sin(angle) = p with a fold at p = 1, followed on planes from `begin`.
-struct Pendulum : OnPath {
-  explicit Pendulum(double begin, double range_end = 1.2)
-      : OnPath(pushed_pendulum({.to = range_end}), begin) {
-    take_plane();
-  }
-  std::optional<LandedStep> land(double h) {
-    StepOrigin origin{node};
-    StepSolver solver(points, origin);
-    AttemptedStep attempted = solver.attempt(h);
-    if (!attempted.step) return std::nullopt;
-    return eigentrail::land(solver, std::move(*attempted.step), false);
-  }
-};
-
-TEST(Land, EndsAStepOnAFold) {
-  Pendulum pendulum(0.97);
-  const auto landed = pendulum.land(0.4);
-  ASSERT_TRUE(landed);
-  EXPECT_LT(landed->step.h, 0.4);
-  EXPECT_NEAR(landed->step.right.p, 1.0, 1e-13);
-  // The pendulum is level: z = 0, to the root of rounding.
-  EXPECT_NEAR(landed->step.right.path.x(2, 0), 0.0, 1e-9);
-}
-
-TEST(Land, EndsAStepOnTheEndOfTheRangeBeforeTheFold) {
-  Pendulum pendulum(0.9, 0.95);
-  const auto landed = pendulum.land(0.3);
-  ASSERT_TRUE(landed);
-  EXPECT_EQ(landed->step.right.p, 0.95);
-  EXPECT_NEAR(landed->step.right.path.x(0, 0), 0.95, 1e-13);
-}
-
-/// Behind the fold the path goes back to where the range begins.
-TEST(Land, EndsAStepWhereTheRangeBegins) {
-  Pendulum pendulum(0.97);
-  auto landed = pendulum.land(0.4);
-  ASSERT_TRUE(landed);
-  pendulum.node = landed->step.right;
-  pendulum.frame.range.from = 0.95;
-  pendulum.take_plane();
-  landed = pendulum.land(0.5);
-  ASSERT_TRUE(landed);
-  EXPECT_EQ(landed->step.right.p, 0.95);
-  EXPECT_NEAR(landed->step.right.path.x(2, 0), std::sqrt(1.0 - 0.95 * 0.95), 1e-12);
 }
 
 /// At the start no step leads to the point.

@@ -39,25 +39,6 @@ PathFrame across_x(double from = 0.0, double to = 2.0) {
   return frame;
 }
 
-TEST(PathFrame, CoordinateIsPOrTheDistanceAcrossThePlane) {
-  PathFrame frame{PathRange{0, 3.0, -1.0}};
-  const PathNode node = on_parabola(0.5, true);
-  EXPECT_EQ(frame.coordinate(node), 0.75);
-  EXPECT_EQ(frame.coordinate_range(), 4.0);
-  EXPECT_EQ(frame.speed(node), 1.0);
-  frame.plane = PathPlane{Vector{{2.0}}, -1.0};
-  EXPECT_NEAR(frame.coordinate(node), 1.0 - 0.75, rounding);
-  EXPECT_EQ(frame.coordinate_range(), 1.0);
-}
-
-TEST(PathFrame, ScalesAreTheLargestPositionAndTheRange) {
-  PathFrame frame{PathRange{0, 3.0, -1.0}};
-  EXPECT_EQ(frame.scales().x, 1.0) << "nothing has moved";
-  EXPECT_EQ(frame.scales().p, 4.0);
-  frame.largest_position = 0.2;
-  EXPECT_EQ(frame.scales().x, 0.2);
-}
-
 /// p = 1 - x^2 turns back at x = 0, which is -x away from every point: the estimate is exact.
 TEST(FoldDistance, IsExactOnAParabola) {
   const PathFrame frame = across_x();
@@ -109,33 +90,6 @@ TEST(ReachedEnd, IsAtTheEndAndAtTheBeginOnTheWayBack) {
   EXPECT_FALSE(reached_end(across_x(0.0, 2.0), on_parabola(0.5, false)));
 }
 
-TEST(PathFrame, KnowsTheBranchPointOnItsBridge) {
-  PathFrame frame{PathRange{0, 0.0, 2.0}};
-  frame.branch_point = {1.0, 1.0};
-  EXPECT_FALSE(frame.on_branch_point(1.0)) << "without a bridge there is none";
-  // x = p^2 as a straight path would not do: the series are those of a parabola.
-  const auto at = [](double p) {
-    return Path{Matrix{{p, 1.0, 0.0}}, Matrix{{p * p, 2.0 * p, 1.0}}, Matrix(0, 3)};
-  };
-  frame.bridge = Bridge(0.8, 1.3, at(0.8), at(1.3), 0, false);
-  EXPECT_TRUE(frame.on_branch_point(1.0 + 1e-12));
-  EXPECT_FALSE(frame.on_branch_point(1.0 + 3e-12));
-  // There the coordinate and p are exact.
-  const Path there = frame.path_on_bridge(1.0 + 1e-12, 2);
-  EXPECT_EQ(there.parameters(0, 0), 1.0);
-  EXPECT_NEAR(there.x(0, 0), 1.0, rounding);
-  const Path beside = frame.path_on_bridge(1.1, 2);
-  EXPECT_NEAR(beside.x(0, 0), 1.21, rounding);
-  EXPECT_NEAR(beside.x(0, 1), 2.2, rounding);
-  PathNode node;
-  node.path = at(1.2);
-  node.p = 1.2;
-  EXPECT_TRUE(frame.on_bridge(node));
-  node.path = at(1.4);
-  node.p = 1.4;
-  EXPECT_FALSE(frame.on_bridge(node));
-}
-
 /// A pendulum with sin(angle) = p: the series in p converge up to the fold at p = 1.
 struct Pendulum : OnPath {
   explicit Pendulum(double p) : OnPath(pushed_pendulum({}), p, With::modes) {}
@@ -169,35 +123,6 @@ TEST(TurnToPlane, IsNotDoneWhereTheEquilibriumIsKnownOrOnABridge) {
   Pendulum fixed(0.99);
   fixed.problem.structure.fixed_equilibrium = true;
   EXPECT_FALSE(turn_to_plane(fixed.problem, fixed.frame, fixed.node, 0.008));
-}
-
-TEST(RenewPlane, FollowsThePathOnceItIsSlantedEnough) {
-  Pendulum pendulum(0.5);
-  EXPECT_FALSE(renew_plane(pendulum.frame, pendulum.node)) << "there is no plane to renew";
-  const int traced = pendulum.problem.traced;
-  pendulum.take_plane();
-  int renewed = 0;
-  PathNode node = pendulum.node;
-  node.tracks.clear();  // behind the fold the pair is real
-  // Around half of the circle the tangent turns by 120 degrees.
-  for (int i = 0; i < 16; ++i) {
-    auto there = pendulum.points.follow(all_tracks(node), 0.1);
-    ASSERT_TRUE(there) << i;
-    node = std::move(there->node);
-    const double before = slant(*pendulum.frame.plane, node.path, traced, pendulum.frame.scales());
-    const bool did = renew_plane(pendulum.frame, node);
-    EXPECT_EQ(did, before <= 0.7) << i;
-    if (!did) continue;
-    ++renewed;
-    EXPECT_NEAR(slant(*pendulum.frame.plane, node.path, traced, pendulum.frame.scales()), 1.0, 1e-12);
-    // The coordinate grows the way that the path goes.
-    EXPECT_GT(pendulum.frame.plane->x.dot(node.path.x.col(1)) +
-                  pendulum.frame.plane->p * pendulum.frame.speed(node),
-              0.0);
-  }
-  EXPECT_GE(renewed, 1);
-  EXPECT_LT(node.p, 0.95) << "it has passed the fold";
-  EXPECT_GT(node.path.x(2, 0), 0.0);
 }
 
 }  // namespace
