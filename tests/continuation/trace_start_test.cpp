@@ -108,5 +108,14 @@ TEST(OrderFirstDeparture, TellsApartWhatCoincidesAtTheStart) {
   EXPECT_GT(std::abs(roots[0] - roots[1]), 1e-7);
 }
 
+/// The tighter the tolerance and the lower the order, the farther away a meeting limits the step.
+TEST(PartingReach, FollowsFromToleranceAndOrder) {
+  TraceOptions loose, tight;
+  loose.tolerance = 1e-4;
+  tight.tolerance = 1e-10;
+  EXPECT_GT(parting_reach(tight, 3), parting_reach(loose, 3));
+  EXPECT_GT(parting_reach(tight, 2), parting_reach(tight, 6));
+}
+
 }  // namespace
 }  // namespace eigentrail::test::trace_start_test
