@@ -13,17 +13,6 @@ const std::vector<Criterion> all{{EventKind::flutter, 0.0},
                                  {EventKind::resonance, 2.0},
                                  {EventKind::extremum, 0.0}};
 
-TEST(Criterion, ValueIsTheFirstCoefficient) {
-  const ComplexVector mu{{Complex(-0.3, 1.7), Complex(0.2, -0.4)}};
-  const Vector excitation{{0.6, 1.0}};
-  for (const Chart chart : {Chart::finite, Chart::reciprocal}) {
-    for (const Criterion& criterion : all) {
-      EXPECT_DOUBLE_EQ(criterion_value(criterion, mu[0], chart, excitation[0]),
-                       criterion_series(criterion, mu, chart, excitation)[0]);
-    }
-  }
-}
-
 TEST(Criterion, SeriesIsThatOfTheValue) {
   // mu(h) = exp((-0.2 + 1.3j) + (0.4 - 0.7j) h), excitation 0.6 + h.
   const Complex rate(0.4, -0.7);

@@ -1,5 +1,5 @@
-// Eigenvalues and criteria of one track on a step, and the walk to a zero or an extremum, with places in
-// closed form.
+// The walk to a zero or an extremum of a criterion, and where on a step criteria begin, with places in closed
+// form.
 #include "continuation/events/criterion_walk.hpp"
 
 #include <gtest/gtest.h>
@@ -12,37 +12,7 @@
 namespace eigentrail::test::criterion_walk_test {
 namespace {
 
-HermiteInterpolant no_excitation() {
-  return {1.0, ComplexMatrix::Zero(1, 2), ComplexMatrix::Zero(1, 2)};
-}
-
-/// Frequencies 2 + p and 2.6 - p in one block.
-struct Lines {
-  Lines()
-      : planted(Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}}))),
-        left(planted.family.point(0.0, {{{2.0 * j, 2.6 * j}}})),
-        step(planted.step(left, 0.2, {{{2.2 * j, 2.4 * j}}})) {}
-  PlantedSearch planted;
-  PathNode left;
-  Step step;
-};
-
 const RoundingThresholds default_rounding;
-
-TEST(CriteriaOnStep, GivesTheEigenvaluesOfTheDenseOutput) {
-  Lines lines;
-  const HermiteInterpolant excitation = no_excitation();
-  CriteriaOnStep on_step(lines.step, 0, excitation, default_rounding);
-  EXPECT_EQ(on_step.begin(), 0.0);
-  EXPECT_LT(on_step.rounding(0, 0.5), 1e-12);
-  for (const double t : {0.0, 0.3, 1.0}) {
-    EXPECT_LT(std::abs(on_step.root(0, t) - (2.0 + 0.2 * t) * j), 1e-12);
-    EXPECT_LT(std::abs(on_step.root(1, t) - (2.6 - 0.2 * t) * j), 1e-12);
-  }
-  EXPECT_LT(std::abs(on_step.member_near(0, 1.7) - 2.2 * j), 1e-12) << "the nearest end";
-  const Criterion twice{EventKind::resonance, 0.0};
-  EXPECT_NEAR(on_step.value(twice, 0, 0.5), 2.1, 1e-12) << "Im s minus no excitation";
-}
 
 using Sought = CriterionTarget::Sought;
 
@@ -64,41 +34,6 @@ Located locate_on(const PlantedOscillator& planted, const Step& step, const Crit
 }
 
 const Criterion flutter{EventKind::flutter, 0.0};
-
-/// Re s = -c / 2 with c = 0.2 - p - p^2.
-TEST(Locate, FindsFlutterInBothDirectionsOfTheTrace) {
-  const double zero = 0.5 * (std::sqrt(1.8) - 1.0);
-  for (const bool backward : {false, true}) {
-    PlantedOscillator planted({0.2, -1.0, -1.0}, {4.0, 1.0});
-    const Step step = backward ? planted.single(0.3, -0.1) : planted.single(-0.1, 0.3);
-    // As accurate as the dense output gives it. Im s and ds/dp are of the last point of the walk.
-    const double guess = (zero + 1e-6 - step.left->p) / step.h;
-    const Located located = locate_on(planted, step, {flutter, true}, guess);
-    ASSERT_TRUE(located.done);
-    ASSERT_EQ(located.found.events.size(), 1U);
-    const Event& event = located.found.events[0];
-    EXPECT_EQ(event.kind, EventKind::flutter);
-    EXPECT_NEAR(event.p, zero, 1e-14);
-    EXPECT_EQ(event.s.real(), 0.0);
-    EXPECT_NEAR(event.s.imag(), std::sqrt(4.0 + zero), 1e-13);
-    EXPECT_EQ(event.direction, 1) << "less stable with growing p, wherever the trace goes";
-    EXPECT_EQ(event.modes, std::vector<int>{0});
-    // ds/dp = -(c' s + k') / (2 s + c).
-    const Complex slope = -(-(1.0 + 2.0 * zero) * event.s + 1.0) / (2.0 * event.s);
-    EXPECT_LT(std::abs(event.sensitivity[0] - slope), 1e-5);
-    EXPECT_LE(event.retrackings, 5);
-  }
-}
-
-TEST(Locate, FindsDivergenceOfARealMode) {
-  PlantedOscillator planted({3.0}, {0.3, -1.0});
-  const Located located = locate_on(planted, planted.single(0.1, 0.4), {flutter, false}, 0.5);
-  ASSERT_EQ(located.found.events.size(), 1U);
-  EXPECT_EQ(located.found.events[0].kind, EventKind::divergence);
-  EXPECT_NEAR(located.found.events[0].p, 0.3, 1e-14);
-  EXPECT_EQ(located.found.events[0].s, 0.0);
-  EXPECT_EQ(located.found.events[0].direction, 1);
-}
 
 /// c = 0.2, k = 1 + p: damping ratio 0.1 / sqrt(1 + p), and the decrement that belongs to it.
 TEST(Locate, FindsRequestedValuesInEitherChart) {
@@ -126,20 +61,6 @@ TEST(Locate, FindsRequestedValuesInEitherChart) {
   ASSERT_EQ(located.found.events.size(), 1U);
   EXPECT_NEAR(located.found.events[0].p, 0.23, 1e-12);
   EXPECT_EQ(located.found.events[0].direction, 1) << "Im s grows";
-}
-
-/// Damping ratio 0.1 + p^2 / 2 or 0.1 - p^2 / 2.
-TEST(Locate, TellsMinimaFromMaxima) {
-  for (const double bend : {1.0, -1.0}) {
-    PlantedOscillator planted({0.2, 0.0, bend}, {1.0});
-    const CriterionTarget target{{EventKind::extremum, 0.0}, true, Sought::extremum};
-    const Located located = locate_on(planted, planted.single(-0.2, 0.3), target, 0.5);
-    ASSERT_EQ(located.found.events.size(), 1U);
-    const Event& event = located.found.events[0];
-    EXPECT_NEAR(event.p, 0.0, 1e-10);
-    EXPECT_NEAR(event.value, 0.1, 1e-10);
-    EXPECT_EQ(event.direction, bend > 0.0 ? 1 : -1);
-  }
 }
 
 TEST(Locate, AFlatExtremumIsRounding) {
