@@ -2,7 +2,6 @@
 // the place of the closed form, and nothing else may be found.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -84,25 +83,6 @@ PlantedStep veering(double eps, double from, double to, bool in_one_block) {
   return {Planted::frequencies(W), roots, from, to, in_one_block};
 }
 
-TEST(ExpectedInBlocks, CrossingIsOneMeetingOfItsTwoEigenvalueBranches) {
-  for (const auto& [from, to] : {std::pair(0.0, 0.8), std::pair(0.8, 0.0)}) {
-    const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, from, to);
-    const auto found = step.in_blocks();
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_NEAR(step.places(found)[0].real(), 0.3, of_double_roots);
-    EXPECT_EQ(found[0].position.imag(), 0.0);
-    EXPECT_EQ(found[0].a.members, Members{0});
-    EXPECT_EQ(found[0].b.members, Members{1});
-  }
-}
-
-TEST(ExpectedInBlocks, ExceptionalPointIsWhereTheSeriesHaveIt) {
-  const PlantedStep step = branching({-0.1, 1.0}, -0.2, 0.3);
-  const auto found = step.in_blocks();
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_NEAR(step.places(found)[0].real(), 0.1, rounding);
-}
-
 /// 2 +- sqrt(p - 0.1) and a third frequency of 2.5, which meets one of the two at 0.35: its gaps have kinks
 /// at 0.1.
 TEST(ExpectedInBlocks, TheFirstIsEnoughWhereGapsHaveKinks) {
@@ -124,20 +104,6 @@ TEST(ExpectedInBlocks, TheFirstIsEnoughWhereGapsHaveKinks) {
   EXPECT_NEAR(first.complete_to, 0.2 / 0.6 + 0.01, 1e-4);
 }
 
-TEST(ExpectedInBlocks, SeveralComeInTheOrderInWhichTheStepPassesThem) {
-  // Exceptional points at -0.1, 0.05 and 0.2.
-  const std::vector<double> product{0.001, -0.015, -0.15, 1.0};
-  for (const auto& [from, to] : {std::pair(-0.3, 0.4), std::pair(0.4, -0.3)}) {
-    const PlantedStep step = branching(product, from, to);
-    const auto found = step.in_blocks();
-    ASSERT_EQ(found.size(), 3U);
-    const double first = from < to ? -0.1 : 0.2;
-    EXPECT_NEAR(step.places(found)[0].real(), first, rounding);
-    EXPECT_NEAR(step.places(found)[1].real(), 0.05, rounding);
-    EXPECT_NEAR(step.places(found)[2].real(), 0.1 - first, rounding);
-  }
-}
-
 TEST(ExpectedInBlocks, TwoCloseTogetherAreTwo) {
   const PlantedStep step = branching({0.1 * 0.101, -0.201, 1.0}, -0.2, 0.3);
   const auto places = step.places(step.in_blocks());
@@ -151,40 +117,12 @@ TEST(ExpectedInBlocks, TwoCloseTogetherAreTwo) {
   EXPECT_NEAR(place[0].real(), 0.10005, 1e-4);
 }
 
-TEST(ExpectedInBlocks, EveryTwoOfThreeMeetOnceEach) {
-  // At 0.2, 0.45 and 0.7.
-  const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.2, 0.0}, {2.9, -1.0}}, 0.0, 0.9);
-  const auto places = step.places(step.in_blocks());
-  ASSERT_EQ(places.size(), 3U);
-  EXPECT_NEAR(places[0].real(), 0.2, of_double_roots);
-  EXPECT_NEAR(places[1].real(), 0.45, of_double_roots);
-  EXPECT_NEAR(places[2].real(), 0.7, of_double_roots);
-}
-
-TEST(ExpectedInBlocks, OutsideTheStepThereAreNone) {
-  EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.0, 0.25).in_blocks().empty());
-  EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.35, 0.8).in_blocks().empty());
-  EXPECT_TRUE(branching({-0.1, 1.0}, 0.2, 0.5).in_blocks().empty());
-}
-
 TEST(ExpectedInBlocks, AtTheRightEndIsOnTheStep) {
   const PlantedStep step = branching({-0.1, 1.0}, -0.2, 0.1);
   const auto found = step.in_blocks();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].position.real(), 0.3, rounding);
   EXPECT_LE(found[0].position.real(), step.length);
-}
-
-TEST(ExpectedInBlocks, TheOneThatTheStepBeganWithIsKnown) {
-  PlantedStep step = branching({0.0, 0.1, -1.0}, 0.0, 0.3);
-  Track& track = step.left.tracks[0];
-  track.met = {0, 1};
-  const double half = std::sqrt(0.01 * 0.09);
-  track.departure = Track::Departure{0.01, ComplexVector{{(2.0 + half) * j, (2.0 - half) * j}}};
-  // The meeting at 0, where the step begins, is known; the next one is at 0.1.
-  const auto places = step.places(step.in_blocks());
-  ASSERT_EQ(places.size(), 1U);
-  EXPECT_NEAR(places[0].real(), 0.1, rounding);
 }
 
 TEST(ExpectedInBlocks, ModesThatAreOneNeverMeet) {
@@ -208,29 +146,6 @@ TEST(ExpectedInBlocks, SingleModesHaveNone) {
   EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.0, 0.8, false).in_blocks().empty());
 }
 
-TEST(ExpectedInBlocks, WideVeeringIsNoneNarrowOneIs) {
-  EXPECT_TRUE(veering(0.2, -0.2, 0.4, true).in_blocks().empty());
-  const PlantedStep step = veering(1e-3, -0.2, 0.4, true);
-  const auto places = step.places(step.in_blocks());
-  ASSERT_EQ(places.size(), 1U);
-  EXPECT_NEAR(places[0].real(), 0.1, 1e-9);
-}
-
-/// The pair of a real block touches the axis twice: it comes apart at 0.1 and is a pair again at 0.4.
-TEST(ExpectedInBlocks, PairThatVisitsTheRealAxisMeetsTwice) {
-  // s^2 + s + 0.25 - (p - 0.1)(0.4 - p).
-  Planted family({{Matrix{{1.0}}}, {Matrix{{1.0}}}, {Matrix{{0.29}}, Matrix{{-0.5}}, Matrix{{1.0}}}});
-  const auto pair = [](double p) {
-    const Complex root = std::sqrt(Complex((p - 0.1) * (0.4 - p)));
-    return std::vector<Complex>{-0.5 + root, -0.5 - root};
-  };
-  const PlantedStep step(std::move(family), pair, 0.0, 0.5, true);
-  const auto places = step.places(step.in_blocks());
-  ASSERT_EQ(places.size(), 2U);
-  EXPECT_NEAR(places[0].real(), 0.1, rounding);
-  EXPECT_NEAR(places[1].real(), 0.4, rounding);
-}
-
 class ExpectedVeering : public testing::TestWithParam<double> {};
 
 TEST_P(ExpectedVeering, LiesItsHalfWidthBesideTheStepInBothDirections) {
@@ -247,11 +162,6 @@ TEST_P(ExpectedVeering, LiesItsHalfWidthBesideTheStepInBothDirections) {
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfWidths, ExpectedVeering, testing::Values(0.08, 0.03, 1e-2, 1e-3));
-
-TEST(ExpectedBeside, WiderThanAskedForIsNone) {
-  EXPECT_TRUE(veering(0.08, -0.05, 0.2, false).beside(0.05).empty());
-  EXPECT_EQ(veering(0.04, -0.05, 0.2, false).beside(0.05).size(), 1U);
-}
 
 TEST(ExpectedBeside, WhatLiesBeforeOrBehindTheStepIsLeftToItsNeighbours) {
   EXPECT_TRUE(veering(0.01, 0.2, 0.4, false).beside(0.05).empty());

@@ -32,25 +32,6 @@ TEST(MeetingEvents, GiveTheCrossingWithItsModes) {
   EXPECT_TRUE(meeting_events(at.planted.search, at.node, {}).events.empty());
 }
 
-/// s^2 + s + 1 - p: a pair meets the real axis at p = 0.75, s = -1/2 +- sqrt(p - 0.75).
-TEST(MeetingEvents, GiveTheCollisionWithItsPuiseuxCoefficient) {
-  PlantedSearch planted(Planted({{Matrix{{1.0}}}, {Matrix{{1.0}}}, {Matrix{{1.0}}, Matrix{{-1.0}}}}));
-  const PathNode node = planted.family.point(0.75, {{{-0.5, -0.5}}});
-  const auto meetings = meetings_at(planted.family.problem(), planted.frame, node);
-  FoundEvents found = meeting_events(planted.search, node, meetings);
-  ASSERT_EQ(found.events.size(), 1U);
-  EXPECT_EQ(found.events[0].kind, EventKind::collision);
-  EXPECT_NEAR(std::abs(found.events[0].puiseux), 1.0, 1e-6);
-  // A second mode begins there: it belongs to the event.
-  const int parent = found.events[0].modes.front();
-  name_births({{parent, 7}}, found);
-  EXPECT_TRUE(std::find(found.events[0].modes.begin(), found.events[0].modes.end(), 7) !=
-              found.events[0].modes.end());
-  const std::vector<int> modes = found.events[0].modes;
-  name_births({{99, 8}}, found);
-  EXPECT_EQ(found.events[0].modes, modes) << "of another parent";
-}
-
 TEST(MarkDoubtful, ClearsTracksWhoseMeetingMayBeOfAnotherKind) {
   AtCrossing at;
   mark_doubtful(at.meetings, at.node);

@@ -45,48 +45,6 @@ PathNode veering_point(Planted& family, double p, double eps) {
   return family.point(p, {{{(2.0 - std::hypot(p, eps)) * j, (2.0 + std::hypot(p, eps)) * j}}});
 }
 
-TEST(GapOf, TwoIsDelta) {
-  Planted family = crossing();
-  const PathNode node = crossing_point(family, 0.1);
-  const ComplexVector gap = discriminant_of(node.tracks[0], {0}, {1});
-  // -(0.2 - h)^2.
-  EXPECT_LT(distance(gap, ComplexVector{{-0.04, 0.4, -1.0}}), rounding);
-  EXPECT_LT(distance(gap, node.tracks[0].functions.row(1).transpose()), rounding);
-}
-
-TEST(GapOf, AnyTwoOfThreeIsTheirs) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {3.0, 0.5}}));
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j, 3.0 * j}}});
-  const auto expect = [&](int a, int b, double apart, double speed) {
-    const ComplexVector expected{{-0.25 * apart * apart, -0.5 * apart * speed, -0.25 * speed * speed}};
-    EXPECT_LT(distance(discriminant_of(node.tracks[0], {a}, {b}), expected), rounding) << a << " and " << b;
-    EXPECT_LT(distance(discriminant_of(node.tracks[0], {b}, {a}), expected), rounding) << b << " and " << a;
-  };
-  expect(0, 1, 0.6, -2.0);
-  expect(0, 2, 1.0, -0.5);
-  expect(1, 2, 0.4, 1.5);
-}
-
-TEST(GapOf, AnEigenvalueBranchOfTwoAndAThirdIsThatOfTheirMeans) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.5 * j, 2.0 * j}}});
-  // -((0.5 - 1.2 h) / 2)^2.
-  EXPECT_LT(distance(discriminant_of(node.tracks[0], {0, 2}, {1}), ComplexVector{{-0.0625, 0.3, -0.36}}),
-            rounding);
-}
-
-TEST(GapOf, IsSmoothWhereTheTwoMeetBesideAThird) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, -1.0}, {3.0, 0.5}}));
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 3.0 * j}}});
-  EXPECT_LT(distance(discriminant_of(node.tracks[0], {0}, {1}), ComplexVector{{0.0, 0.0, -1.0}}), rounding);
-}
-
-TEST(GapOf, IsEmptyWhereTheTwoCannotBeToldFromAThird) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, 0.0}, {2.0, -0.6}}));
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 2.0 * j}}});
-  EXPECT_EQ(discriminant_of(node.tracks[0], {0}, {1}).size(), 0);
-}
-
 class SeenFrom : public testing::TestWithParam<double> {};
 
 TEST_P(SeenFrom, ExceptionalPointLiesWhereTheBranchesJoin) {
@@ -281,18 +239,6 @@ TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
 
 INSTANTIATE_TEST_SUITE_P(Dampings, DampedVeering, testing::Values(0.0, 0.02, 0.04999));
 
-TEST(NearestMeeting, OfTwoExceptionalPointsIsTheNearer) {
-  // Roots 0.1 and 0.2, seen from either side.
-  Planted family = branching({0.02, -0.3, 1.0});
-  for (const double p : {0.09, 0.21}) {
-    const PathNode node = branching_point(family, p, (p - 0.1) * (p - 0.2));
-    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
-    ASSERT_TRUE(meeting.found);
-    EXPECT_EQ(meeting.kind, EventKind::collision);
-    EXPECT_NEAR(p + meeting.offset, p < 0.15 ? 0.1 : 0.2, rounding);
-  }
-}
-
 /// Between two exceptional points that are some ten times farther apart than rounding would split one double
 /// root, the nearer one is found, and not a single one in the middle; its place is known less well than
 /// others.
@@ -314,38 +260,11 @@ TEST(NearestMeeting, OfTwoExceptionalPointsJustAboveRoundingIsTheNearer) {
   }
 }
 
-/// s^2 + 2 d s + 1 - p: the pair meets the real axis at p = 1 - d^2.
-TEST(NearestMeeting, OfAPairWithItsConjugateIsACollision) {
-  constexpr double d = 0.4;
-  Planted family({{Matrix{{1.0}}}, {Matrix{{2.0 * d}}}, {Matrix{{1.0}}, Matrix{{-1.0}}}});
-  for (const double p : {0.6, 0.83, 0.84, 0.9}) {
-    const Complex root = std::sqrt(Complex(p - 1.0 + d * d));
-    const PathNode node = family.point(p, {{{-d + root, -d - root}}});
-    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
-    ASSERT_TRUE(meeting.found) << p;
-    EXPECT_EQ(meeting.kind, EventKind::collision) << p;
-    EXPECT_NEAR(p + meeting.offset, 1.0 - d * d, rounding) << p;
-    EXPECT_NEAR(std::abs(meeting.puiseux), 1.0, 1e-9) << p;
-  }
-}
-
 TEST(NearestMeeting, BeyondTheReachIsNone) {
   Planted family = crossing();
   const PathNode node = crossing_point(family, 0.0);
   EXPECT_TRUE(nearest_meeting(node.tracks[0], {0}, {1}, 0.2).found);
   EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, 0.1).found);
-}
-
-TEST(NearestMeeting, ParallelModesNeverMeet) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, 1.0}}));
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
-  EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
-}
-
-TEST(NearestMeeting, TwoThatAreOneDoNotMeet) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.0, 0.5}, {2.9, 0.1}}));
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.0 * j, 2.9 * j}}});
-  EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
 }
 
 TEST(NearestMeeting, OfADoubletWithAThirdIsACrossing) {
@@ -446,29 +365,6 @@ TEST(NearestMeeting, IsSeenInTheReciprocalChart) {
       EXPECT_EQ(meeting.kind, EventKind::crossing);
     }
   }
-}
-
-TEST(EarlierMeeting, IsTheOneThatTheStepHasPassed) {
-  // Exceptional points at 0.1 and 0.2; a point on the second.
-  Planted family = branching({0.02, -0.3, 1.0});
-  const PathNode node = branching_point(family, 0.2, 0.0);
-  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.1, 1e-9);
-  // None if the step is so short that the meeting is far behind; none if it lies ahead.
-  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, 0.3), 0.0);
-  EXPECT_EQ(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.0);
-}
-
-TEST(EarlierMeeting, GoesBackwardsAlike) {
-  Planted family = branching({0.02, -0.3, 1.0});
-  const PathNode node = branching_point(family, 0.1, 0.0);
-  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, -1.0), 0.1, 1e-9);
-}
-
-TEST(EarlierMeeting, IsTheFarthestOfSeveral) {
-  // At 0, 0.05 and 0.12, seen from the last.
-  Planted family = branching({0.0, 0.006, -0.17, 1.0});
-  const PathNode node = branching_point(family, 0.12, 0.0);
-  EXPECT_NEAR(earlier_meeting(node.tracks[0], {0}, {1}, 1.0), -0.12, 1e-9);
 }
 
 TEST(EarlierMeeting, IsNoneBesideTheAxisAndNoneAtThePoint) {
