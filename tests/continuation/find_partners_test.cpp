@@ -6,24 +6,11 @@
 #include <cmath>
 
 #include "continuation/meeting_families.hpp"
-#include "eigentrail/modes/block_parts.hpp"
-#include "eigentrail/modes/invariants.hpp"
 
 namespace eigentrail::test::find_partners_test {
 namespace {
 
 constexpr double rounding = 1e-12;  ///< of series of modes some tenths apart, of order one
-
-TEST(FindPartners, IsWhomAModeMeetsWithinTheReach) {
-  Planted family = crossing();
-  const PathNode node = family.point(0.0, alone(at_zero));
-  const auto partners = find_partners(node, 0, 0.4, 1.0);
-  ASSERT_EQ(partners.size(), 1U);
-  EXPECT_EQ(partners[0].track, 1U);
-  EXPECT_FALSE(partners[0].conjugate);
-  // A double root is known to the square root of rounding.
-  EXPECT_NEAR(partners[0].distance, 0.0, 1e-7);
-}
 
 TEST(FindPartners, DoNotDependOnTheUnitOfTheParameter) {
   for (const double unit : {1e-12, 1e-9, 1e9}) {
@@ -35,19 +22,6 @@ TEST(FindPartners, DoNotDependOnTheUnitOfTheParameter) {
     EXPECT_EQ(partners[0].track, 1U);
     EXPECT_NEAR(partners[0].distance / unit, 0.2, 1e-7);
   }
-}
-
-TEST(FindPartners, DistanceIsThatFromTheStep) {
-  Planted family = crossing();
-  const PathNode node = family.point(0.0, alone(at_zero));
-  EXPECT_TRUE(find_partners(node, 0, 0.1, 1.0).empty());
-  const auto partners = find_partners(node, 0, 0.1, 3.0);
-  ASSERT_EQ(partners.size(), 1U);
-  EXPECT_NEAR(partners[0].distance, 0.2, 1e-7);
-  // Going the other way it lies behind.
-  const auto behind = find_partners(node, 0, -0.1, 4.0);
-  ASSERT_EQ(behind.size(), 1U);
-  EXPECT_NEAR(behind[0].distance, 0.3, 1e-7);
 }
 
 TEST(FindPartners, AreSymmetricAndNearestFirst) {
@@ -149,17 +123,6 @@ TEST(FindPartners, ChartsDoNotMatter) {
 TEST(FindPartners, BlockIsMetWhereItsMembersAre) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{1.9, 0.0}, {2.1, 0.0}, {3.0, -1.0}}));
   const PathNode node = family.point(0.0, {{{1.9 * j, 2.1 * j}}, {{3.0 * j}}});
-  const auto partners = find_partners(node, 1, 0.85, 0.1);
-  ASSERT_EQ(partners.size(), 1U);
-  EXPECT_LE(partners[0].distance, 0.05 + rounding);
-}
-
-TEST(FindPartners, RealBlockIsMetWhereItsMembersAre) {
-  // (s + 1.9)(s + 2.1), and s = -3 + p beside one at -20: they meet first at p = 0.9.
-  Planted family({{Matrix::Identity(2, 2)},
-                  {Matrix{{4.0, 0.0}, {0.0, 23.0}}, Matrix{{0.0, 0.0}, {0.0, -1.0}}},
-                  {Matrix{{3.99, 0.0}, {0.0, 60.0}}, Matrix{{0.0, 0.0}, {0.0, -20.0}}}});
-  const PathNode node = family.point(0.0, {{{Complex(-1.9), Complex(-2.1)}}, {{Complex(-3.0)}}});
   const auto partners = find_partners(node, 1, 0.85, 0.1);
   ASSERT_EQ(partners.size(), 1U);
   EXPECT_LE(partners[0].distance, 0.05 + rounding);

@@ -56,19 +56,6 @@ TEST_P(ErrorOfVeering, VanishesAsABlockAndIsLargeAlone) {
   EXPECT_GT(singles[0], 1e-3);
 }
 
-TEST_P(ErrorOfVeering, AsABlockIsTheSameForBothPartners) {
-  const double one = error_as_block(left, right, 0, {{false, 1, eps}}, h, least_gap);
-  const double other = error_as_block(left, right, 1, {{false, 0, eps}}, h, least_gap);
-  EXPECT_NEAR(one, other, rounding / eps);
-}
-
-TEST_P(ErrorOfVeering, WithoutPartnersIsThatOfTheModeItself) {
-  const double alone_as_block = error_as_block(left, right, 0, {}, h, least_gap);
-  const double scale = std::min(std::abs(left.tracks[0].roots[0]), std::abs(right.tracks[0].roots[0]));
-  // The estimate as singles takes the better of the two charts and so may be smaller.
-  EXPECT_GE(alone_as_block / scale, errors_as_singles(family.problem(), left, right, 0, h)[0] - rounding);
-}
-
 INSTANTIATE_TEST_SUITE_P(HalfWidths, ErrorOfVeering, testing::Values(0.1, 0.03, 1e-2));
 
 /// A veering of half-width 0.3 and steps of at most that length. The terms of the interpolant decrease, and
@@ -86,20 +73,6 @@ TEST(ErrorsAsSingles, EstimateTheErrorThatIsMade) {
       EXPECT_GT(estimate, 0.9 * made) << "h = " << h;
       EXPECT_LT(estimate, 5.0 * made + rounding) << "h = " << h;
     }
-  }
-}
-
-TEST(ErrorsAsSingles, OfABlockAreThoseOfItsMembersByThemselves) {
-  constexpr double eps = 0.3;
-  Planted family = Planted::frequencies(veering_at_zero(eps));
-  const auto roots = [&](double p) { return veering_roots(p, eps); };
-  const PathNode left = family.point(0.1, {{roots(0.1)}, {{roots(0.1)[0]}}, {{roots(0.1)[1]}}});
-  const PathNode right = family.point(0.3, {{roots(0.3)}, {{roots(0.3)[0]}}, {{roots(0.3)[1]}}});
-  const Vector of_block = errors_as_singles(family.problem(), left, right, 0, 0.2);
-  ASSERT_EQ(of_block.size(), 2);
-  for (const std::size_t i : {0U, 1U}) {
-    const double alone_error = errors_as_singles(family.problem(), left, right, 1 + i, 0.2)[0];
-    EXPECT_NEAR(of_block[static_cast<Eigen::Index>(i)], alone_error, 1e-6 * alone_error + rounding);
   }
 }
 

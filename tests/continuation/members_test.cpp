@@ -1,9 +1,7 @@
-// Sets of modes, and members of a block.
+// Sets of modes.
 #include "continuation/tracks/members.hpp"
 
 #include <gtest/gtest.h>
-
-#include "continuation/planted_points.hpp"
 
 namespace eigentrail::test::members_test {
 namespace {
@@ -25,20 +23,6 @@ TEST(United, HasWhatEitherHasOnce) {
   EXPECT_EQ(united({}, {1}), (Modes{1}));
   EXPECT_EQ(united({1}, {}), (Modes{1}));
   EXPECT_TRUE(united({}, {}).empty());
-}
-
-class PointOfFour : public testing::Test {
- protected:
-  Planted family = Planted::frequencies(uncoupled(Matrix{{1.0, 0.1}, {1.3, 0.2}, {1.8, 0.3}, {4.0, 0.4}}));
-  PathNode node = family.point(0.0, {{{1.0 * j}}, {{1.8 * j, 1.3 * j}}, {{4.0 * j}}});
-};
-
-TEST_F(PointOfFour, MembersAreNamedByTheirIndicesInTheBlock) {
-  const std::vector<Complex> both = roots_of(node.tracks[1], {1, 0});
-  ASSERT_EQ(both.size(), 2U);
-  EXPECT_EQ(both[0], node.tracks[1].roots[1]);
-  EXPECT_EQ(both[1], node.tracks[1].roots[0]);
-  EXPECT_TRUE(roots_of(node.tracks[1], {}).empty());
 }
 
 }  // namespace

@@ -138,12 +138,5 @@ TEST(LookAtMode, GivesASmallRealPartToItsOwnDigits) {
   EXPECT_NEAR(mode->root.real(), -d, 1e-6 * d);
 }
 
-TEST(LookAtMode, FindsNothingWhereThereIsNoEquilibrium) {
-  const OnPath at(pushed_pendulum({}), 0.9, OnPath::With::modes);
-  const Complex s = at.node.tracks[0].roots[0];
-  EXPECT_TRUE(look_at_mode(at.points, at.node, 0, s, 0.01, ModeFunction::eigenvalue));
-  EXPECT_FALSE(look_at_mode(at.points, at.node, 0, s, 0.2, ModeFunction::eigenvalue));
-}
-
 }  // namespace
 }  // namespace eigentrail::test::nearby_mode_test

@@ -22,15 +22,6 @@ std::vector<Complex> on_polynomials(double p) {
   return {(2.0 + p + p * p) * j, (5.0 - p * p * p) * j};
 }
 
-TEST(TracksAt, HoldAllTracksOrOne) {
-  Planted family = polynomials();
-  const PathNode node = family.point(0.1, alone(on_polynomials(0.1)));
-  ASSERT_EQ(all_tracks(node).tracks.size(), 2U);
-  EXPECT_EQ(all_tracks(node).tracks[1], &node.tracks[1]);
-  ASSERT_EQ(one_track(node, 1).tracks.size(), 1U);
-  EXPECT_EQ(one_track(node, 1).tracks[0], &node.tracks[1]);
-}
-
 TEST(Predict, IsExactWhereTheSeriesIs) {
   PlantedSearch planted(polynomials());
   const PathNode node = planted.family.point(0.1, alone(on_polynomials(0.1)));
@@ -85,20 +76,6 @@ TEST(Predict, ArrivesAtTheEndOfTheRangeExactly) {
     planted.frame.plane = PathPlane{Vector::Zero(node.path.x.rows()), 1.0};
     EXPECT_NE(arrives_at(end - 5e-15), end);
     EXPECT_TRUE(planted.solver.predict(all_tracks(node), 0.1).plane);
-  }
-}
-
-TEST(Follow, FindsThePointOfTheClosedForm) {
-  PlantedSearch planted(Planted({{Matrix{{1.0}}}, {}, {Matrix{{1.0}}, Matrix{{1.0}}}}, 2));
-  const PathNode node = planted.family.point(0.0, alone({j}));
-  for (const double h : {-0.3, 0.3}) {
-    const auto there = planted.solver.follow(all_tracks(node), h);
-    ASSERT_TRUE(there);
-    EXPECT_EQ(there->node.p, h);
-    const double w = std::sqrt(1.0 + h);
-    EXPECT_LT(std::abs(there->node.s(0, 0) - w * j), rounding);
-    EXPECT_LT(std::abs(there->node.s(0, 1) - 0.5 / w * j), rounding);
-    EXPECT_LT(std::abs(there->point.pairs[0].eigenvalue() - w * j), rounding);
   }
 }
 

@@ -3,11 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "continuation/meeting_families.hpp"
-#include "eigentrail/modes/block_parts.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -58,20 +56,6 @@ TEST(Regrouping, JoinsAPairWithItsConjugateToARealBlock) {
   EXPECT_LT(std::abs(block.roots[0] - upper(0.5, 0.5)), rounding);
   EXPECT_EQ(block.roots[1], std::conj(block.roots[0]));
   EXPECT_LT(distance(block.functions.row(1).transpose(), ComplexVector{{-0.25, 1.0}}), rounding);
-}
-
-TEST(Regrouping, ComplexModeThatJoinsARealBlockBringsItsConjugate) {
-  Planted family = towards_the_axis(0.5);
-  const Complex s = upper(0.5, 0.5);
-  PathNode node = family.point(0.5, {{{far_away}}, {{s, std::conj(s)}}});
-  node.tracks[1].met = {0, 1};
-  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, 0.0}}, family.counts));
-  ASSERT_EQ(node.tracks.size(), 1U);
-  const Track& block = node.tracks[0];
-  EXPECT_TRUE(block.pair.is_real);
-  EXPECT_EQ(block.modes, (Modes{0, Track::no_mode, 1, Track::no_mode}));
-  EXPECT_LT(distance(block.roots, ComplexVector{{far_away, std::conj(far_away), s, std::conj(s)}}), rounding);
-  EXPECT_EQ(block.met, (std::vector<int>{2, 3}));
 }
 
 TEST(Regrouping, JoinsAcrossChartsInThatOfTheTrack) {
@@ -281,30 +265,6 @@ TEST(Regrouping, WhoIsWhoBehindAMeetingOutlivesJoiningAndParting) {
   EXPECT_LT(distance(pair.departure->roots, ComplexVector{{2.01 * j, 1.99 * j}}), rounding);
 }
 
-TEST(Separate, GivesMembersTheSeriesThatTheyHaveAlone) {
-  Planted family = Planted::frequencies({Matrix{{2.0, 0.01, 0.0}, {0.01, 2.1, 0.02}, {0.0, 0.02, 2.9}},
-                                         Matrix{{1.0, 0.0, 0.1}, {0.0, -1.0, 0.0}, {0.1, 0.0, 0.2}}});
-  const Matrix W{{2.0, 0.01, 0.0}, {0.01, 2.1, 0.02}, {0.0, 0.02, 2.9}};
-  const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(W).eigenvalues();
-  const PathNode node =
-      family.point(0.0, {{{w[0] * j, w[1] * j, w[2] * j}}, {{w[2] * j}}, {{w[0] * j, w[1] * j}}});
-  const auto one = separate(family.problem(), node, node.tracks[0], {2}, family.counts);
-  ASSERT_TRUE(one);
-  EXPECT_EQ(one->modes, Modes{2});
-  EXPECT_LT((one->functions - node.tracks[1].functions).norm(), 1e-11);
-  const auto two = separate(family.problem(), node, node.tracks[0], {0, 1}, family.counts);
-  ASSERT_TRUE(two);
-  EXPECT_LT((two->functions - node.tracks[2].functions).norm(), 1e-11);
-}
-
-TEST(Separate, AllMembersAreTheBlock) {
-  Planted family = crossing();
-  const PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}});
-  const auto all = separate(family.problem(), node, node.tracks[0], {0, 1}, family.counts);
-  ASSERT_TRUE(all);
-  EXPECT_EQ(all->functions, node.tracks[0].functions);
-}
-
 TEST(Separate, GivesNothingWhereOthersAreAsClose) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.1, 0.0}, {2.3, 0.3}, {6.0, 0.0}}));
   const PathNode node = family.point(0.0, {{{2.0 * j, 2.1 * j, 2.3 * j}}});
@@ -369,14 +329,6 @@ TEST(PrefersOtherChart, NotWhereTheEigenvalueHardlyMoves) {
   // The other root stays finite.
   const PathNode other = family.point(0.985, alone({Complex(1.0 / (-0.5 - passing(0.985)))}));
   EXPECT_FALSE(prefers_other_chart(other.tracks[0], 0.01));
-}
-
-TEST(PrefersOtherChart, NeitherBlocksNorZeroDo) {
-  Planted family = crossing();
-  PathNode node = family.point(0.0, {{{2.0 * j, 2.6 * j}}, {{5.0 * j}}});
-  EXPECT_FALSE(prefers_other_chart(node.tracks[0], 1e3));
-  node.tracks[1].functions(0, 0) = 0.0;
-  EXPECT_FALSE(prefers_other_chart(node.tracks[1], 1.0));
 }
 
 }  // namespace

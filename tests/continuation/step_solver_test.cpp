@@ -11,30 +11,11 @@
 namespace eigentrail::test::step_solver_test {
 namespace {
 
-constexpr double rounding = 1e-12;
 using Kind = Verdict::Kind;
 
 /// Frequencies 2 + p and 2.6 - p in one block, and 5: the first two cross at p = 0.3.
 Planted crossing() {
   return Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {5.0, 0.0}}));
-}
-
-TEST(Attempt, KeepsTheOrderOfTheModesOfABlock) {
-  PlantedSearch planted(crossing());
-  StepOrigin origin{planted.family.point(0.0, {{{2.6 * j, 2.0 * j}}, {{5.0 * j}}})};
-  StepSolver solver(planted.solver, origin);
-  const AttemptedStep attempted = solver.attempt(0.2);
-  ASSERT_TRUE(attempted.step);
-  EXPECT_TRUE(attempted.verdict.accepted());
-  const Step& step = *attempted.step;
-  EXPECT_EQ(step.left, &origin.node);
-  EXPECT_EQ(step.h, 0.2);
-  EXPECT_EQ(step.right.p, 0.2);
-  const Track& block = step.right.tracks[0];
-  EXPECT_EQ(block.modes, (std::vector<int>{0, 1}));
-  EXPECT_EQ(block.arriving, block.modes);
-  EXPECT_LT(distance(block.roots, ComplexVector{{2.4 * j, 2.2 * j}}), rounding);
-  EXPECT_TRUE(block.told_apart);
 }
 
 TEST(Attempt, NumbersTracksOnceAndHandsTheNumbersOn) {

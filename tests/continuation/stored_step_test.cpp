@@ -54,15 +54,6 @@ std::vector<TrackTest> strict(std::size_t count) {
   return std::vector<TrackTest>(count, TrackTest::strict);
 }
 
-TEST(Certify, ClosesOnASmoothStep) {
-  Lines lines;
-  RunCounts counts;
-  std::vector<TrackTest> tests = strict(2);
-  EXPECT_EQ(certify(lines.planted.family.problem(), lines.step, false, tests, counts),
-            (std::vector<bool>{true, true}));
-  EXPECT_GT(counts.certificate_bases + counts.certificate_factorizations, 0U);
-}
-
 /// Three single modes of which two arrive exchanged.
 struct Exchanged {
   Exchanged(std::size_t one, std::size_t other) {
@@ -72,29 +63,6 @@ struct Exchanged {
   PathNode left = planted.family.point(0.0, alone({2.0 * j, 2.6 * j, 5.0 * j}));
   Step step = planted.step(left, 0.1, alone({2.01 * j, 2.61 * j, 5.01 * j}));
 };
-
-/// No ball contains both. Behind the first that fails the others are tested only if they count.
-TEST(Certify, DoesNotCloseBetweenDifferentModes) {
-  Exchanged first(0, 1);
-  RunCounts counts;
-  std::vector<TrackTest> tests = strict(3);
-  EXPECT_EQ(certify(first.planted.family.problem(), first.step, true, tests, counts),
-            (std::vector<bool>{false, false, true}));
-  EXPECT_EQ(certify(first.planted.family.problem(), first.step, false, tests, counts),
-            (std::vector<bool>{false, false, false}));
-}
-
-/// The same where the first two may pass by their shapes: the third is tested all the same.
-TEST(Certify, GoesOnBehindATrackThatMayFail) {
-  Exchanged first(0, 1);
-  RunCounts counts;
-  std::vector<TrackTest> tests{TrackTest::lenient, TrackTest::lenient, TrackTest::strict};
-  EXPECT_EQ(certify(first.planted.family.problem(), first.step, false, tests, counts),
-            (std::vector<bool>{false, false, true}));
-  tests.assign(3, TrackTest::none);
-  EXPECT_EQ(certify(first.planted.family.problem(), first.step, false, tests, counts),
-            std::vector<bool>(3, false));
-}
 
 /// A mode in the chart of s, and two eigenvalues, with their conjugates, in that of 1/s, whose mass goes to
 /// zero. How far these are from that one is a difference of reciprocals, in every unit of time.

@@ -113,14 +113,5 @@ TEST(TraceWork, OneFactorizationPerModeAndStep) {
   }
 }
 
-TEST(TraceWork, OneFactorizationPerModeAndStepWhereNothingHappens) {
-  for (const char* tolerance : {"1e-6", "1e-8", "1e-10"}) {
-    const RecordedTrace recorded =
-        record_trace(scene_setting("rotating_mass", {{"tolerance", tolerance}, {"to", "20"}}));
-    EXPECT_TRUE(recorded.result.events.empty());
-    EXPECT_LE(factorizations_per_point(recorded.result), 1.10) << "tolerance " << tolerance;
-  }
-}
-
 }  // namespace
 }  // namespace eigentrail::test::trace_accuracy_test
