@@ -1,5 +1,5 @@
-// Eigenvalue branches of a block along a step, compared with closed forms at crossings, veerings and
-// exceptional points. They do not depend on the order in which places are sampled.
+// Eigenvalue branches of a block along a step: how many there are, and who is who behind a meeting. They do not
+// depend on the order in which places are sampled.
 #include "continuation/tracks/eigenvalue_branches.hpp"
 
 #include <gtest/gtest.h>
@@ -45,15 +45,6 @@ struct BlockStep {
   Frequencies frequencies;
 };
 
-const std::vector<double> places{0.05, 0.2, 0.45, 0.5, 0.61, 0.8, 0.99, 1.0};
-
-double largest_miss_on(const BlockStep& step, EigenvalueSampler& sampler) {
-  double worst = 0.0;
-  for (const double t : places)
-    worst = std::max(worst, (sampler(t) - step.expected(t)).cwiseAbs().maxCoeff());
-  return worst;
-}
-
 /// Frequencies 2 + p and 2.6 - p, the lower one first all the way.
 BlockStep crossing(double from = 0.0, double to = 0.8) {
   const auto by_size = [](double p) {
@@ -81,25 +72,6 @@ BlockStep three() {
   return {uncoupled(Matrix{{2.0, 0.5}, {2.2, 0.0}, {2.5, -0.7}}), by_size, 0.0, 0.6};
 }
 
-/// Distance of two sets of frequencies, in whatever order.
-double distance_of_sets(const ComplexVector& a, const ComplexVector& b) {
-  Vector x = a.imag(), y = b.imag();
-  std::sort(x.begin(), x.end());
-  std::sort(y.begin(), y.end());
-  return (x - y).norm() + (a.real() - b.real()).norm();
-}
-
-/// Within a step a crossing cannot be distinguished from a veering with a half-width of rounding, which
-/// decides whether the sides are kept. Crossings are recognized by the search for meetings, and steps end
-/// there.
-TEST(EigenvalueSampler, KeepsTheValuesThroughACrossing) {
-  for (const BlockStep& step : {crossing(), crossing(0.8, 0.0), three()}) {
-    EigenvalueSampler sampler = step.sampler();
-    for (const double t : places) EXPECT_LT(distance_of_sets(sampler(t), step.expected(t)), rounding) << t;
-    EXPECT_LT((sampler(places[0]) - step.expected(places[0])).norm(), rounding);
-  }
-}
-
 /// s = j (2 + 0.5 p), twice, and -damping + j (2.5 - 0.7 p): they pass each other at p = 0.42 at the distance
 /// `damping`.
 struct PassingStep {
@@ -125,18 +97,6 @@ struct PassingStep {
 
 class PassAtADistance : public testing::TestWithParam<double> {};
 
-TEST_P(PassAtADistance, GoesStraightOn) {
-  const double damping = GetParam();
-  const PassingStep step(damping);
-  EigenvalueSampler sampler(step.left, step.right, 0, 0.6);
-  for (const double t : places) {
-    const std::vector<Complex> expected = PassingStep::roots(0.6 * t, damping);
-    for (int i = 0; i < 3; ++i) {
-      EXPECT_LT(std::abs(sampler(t)[i] - expected[static_cast<std::size_t>(i)]), 1e-10) << t;
-    }
-  }
-}
-
 TEST_P(PassAtADistance, ThoseThatCoincideThroughoutAreOneEigenvalueBranch) {
   const PassingStep step(GetParam());
   EigenvalueSampler sampler(step.left, step.right, 0, 0.6);
@@ -147,17 +107,6 @@ TEST_P(PassAtADistance, ThoseThatCoincideThroughoutAreOneEigenvalueBranch) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Distances, PassAtADistance, testing::Values(0.3, 0.03, 1e-3));
-
-class SampleVeering : public testing::TestWithParam<double> {};
-
-TEST_P(SampleVeering, EachKeepsItsSide) {
-  const BlockStep step = veering(GetParam());
-  EigenvalueSampler sampler = step.sampler();
-  // Rounding of delta divided by the least distance of the roots.
-  EXPECT_LT(largest_miss_on(step, sampler), rounding / GetParam());
-}
-
-INSTANTIATE_TEST_SUITE_P(HalfWidths, SampleVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6));
 
 TEST(EigenvalueSampler, OrderOfSamplingDoesNotMatter) {
   const BlockStep step = three();
@@ -196,56 +145,6 @@ TEST(EigenvalueSampler, PlacesBehindACrossingThatWasSampledKeepTheirSides) {
   }
 }
 
-TEST(EigenvalueSampler, FirstCallMayBeAnywhere) {
-  const BlockStep apart = veering(1e-2), crossed = crossing();
-  EigenvalueSampler in_order = apart.sampler();
-  for (const double t : places) {
-    EXPECT_LT((apart.sampler()(t) - in_order(t)).norm(), rounding) << t;
-    EXPECT_LT(distance_of_sets(crossed.sampler()(t), crossed.expected(t)), rounding) << t;
-  }
-}
-
-TEST(EigenvalueSampler, OfASingleModeIsItsInterpolant) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {5.0, 0.5}}));
-  const PathNode left = family.point(0.0, alone({2.0 * j, 5.0 * j}));
-  const PathNode right = family.point(0.5, alone({2.5 * j, 5.25 * j}));
-  EigenvalueSampler sampler(left, right, 1, 0.5);
-  EXPECT_EQ(sampler.functions().size(), 1);
-  for (const double t : places) {
-    EXPECT_LT(std::abs(sampler(t)[0] - (5.0 + 0.25 * t) * j), rounding);
-    EXPECT_EQ(sampler(t)[0], sampler.functions()(t)[0]);
-  }
-}
-
-/// 2 +- sqrt(p): the interpolant of delta is exact, and so are the roots up to their order.
-TEST(EigenvalueSampler, ThroughAnExceptionalPointHasTheRootsOfTheBlock) {
-  Planted family = Planted::frequencies({Matrix{{2.0, 1.0}, {0.0, 2.0}}, Matrix{{0.0, 0.0}, {1.0, 0.0}}});
-  const auto root = [](double p) { return std::sqrt(Complex(p)); };
-  const auto both = [&](double p) {
-    return std::vector<Together>{{{j * (2.0 + root(p)), j * (2.0 - root(p))}}};
-  };
-  const PathNode left = family.point(-0.2, both(-0.2));
-  const PathNode right = family.point(0.3, both(0.3));
-  EigenvalueSampler sampler(left, right, 0, 0.5);
-  for (const double t : {0.1, 0.3, 0.5, 0.9}) {
-    const ComplexVector& roots = sampler(t);
-    const Complex half = j * root(0.5 * t - 0.2);
-    EXPECT_LT(std::abs(0.5 * (roots[0] + roots[1]) - 2.0 * j), rounding);
-    EXPECT_LT(std::abs(0.25 * std::pow(roots[0] - roots[1], 2) - half * half), rounding);
-  }
-}
-
-TEST(EigenvalueBranchesOf, ModesThatMeetAreEigenvalueBranchesOfTheirOwn) {
-  const BlockStep step = three();
-  EigenvalueSampler sampler = step.sampler();
-  const std::vector<EigenvalueBranch> branches = eigenvalue_branches_of(step.left.tracks[0], 3, sampler);
-  ASSERT_EQ(branches.size(), 3U);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(branches[static_cast<std::size_t>(i)].members, Members{i});
-    EXPECT_EQ(branches[static_cast<std::size_t>(i)].track, 3U);
-  }
-}
-
 TEST(EigenvalueBranchesOf, ModesThatCoincideAtTheLeftEndOnlyAreTwo) {
   BlockStep step = crossing(0.3, 0.8);
   step.left.tracks[0].departure = Track::Departure{0.01, ComplexVector{{2.31 * j, 2.29 * j}}};
@@ -270,13 +169,6 @@ TEST(EigenvalueBranchesOf, ADistanceOfRoundingIsNone) {
                        0.0, 0.5};
   EigenvalueSampler sampler = step.sampler();
   EXPECT_EQ(eigenvalue_branches_of(step.left.tracks[0], 0, sampler).size(), 1U);
-}
-
-TEST(DepartingRoots, AreThoseOfThePointWhereNoneMeet) {
-  const BlockStep step = crossing();
-  double position = 1.0;
-  EXPECT_EQ(departing_roots(step.left.tracks[0], 0.8, position), step.left.tracks[0].roots);
-  EXPECT_EQ(position, 0.0);
 }
 
 /// A point on a crossing at p = 0.3, seen 0.02 behind it.
@@ -307,13 +199,6 @@ TEST_F(DepartureFromACrossing, IsLookedAtNearerByOnAShorterStep) {
     EXPECT_LT(distance(roots, ComplexVector{{(2.0 + p) * j, (2.6 - p) * j}}), 2e-8) << h;
     EXPECT_GT(roots[0].imag(), roots[1].imag()) << h;
   }
-}
-
-TEST_F(DepartureFromACrossing, KeepsWhoIsWhoInEitherOrder) {
-  std::reverse(track.departure->roots.begin(), track.departure->roots.end());
-  double position = 0.0;
-  const ComplexVector roots = departing_roots(track, 0.01, position);
-  EXPECT_LT(roots[0].imag(), roots[1].imag());
 }
 
 TEST_F(DepartureFromACrossing, IsWhereEigenvalueBranchesBegin) {
