@@ -43,29 +43,6 @@ ComplexMatrix balanced(const ComplexMatrix& T, const ComplexMatrix& Q) {
   });
 }
 
-TEST(AdaptedNorm, ItsMapsAreHermitianAndInverse) {
-  constexpr Eigen::Index n = 5;
-  std::mt19937_64 engine{4};
-  const ComplexMatrix T =
-      random_complex(n, n, engine) + 30.0 * random_complex(n, 1, engine) * random_complex(1, n, engine);
-  const ComplexMatrix Q = random_orthonormal(n, 2, engine);
-  const AdaptedNorm norm = AdaptedNorm::balancing(Q, T * Q, T.adjoint() * Q);
-  const ComplexMatrix S = matrix_of(n, [&](ComplexVector& x) { norm.apply(x); });
-  const ComplexMatrix inverse = matrix_of(n, [&](ComplexVector& x) { norm.apply_inverse(x); });
-  EXPECT_GT((S - ComplexMatrix::Identity(n, n)).norm(), 0.1);
-  EXPECT_LT((S * inverse - ComplexMatrix::Identity(n, n)).norm(), 1e-13);
-  EXPECT_LT((S.adjoint() - S).norm(), 1e-13);
-}
-
-TEST(AdaptedNorm, IsThePlainOneUntilItIsBalanced) {
-  const AdaptedNorm norm;
-  ComplexVector x = ComplexVector::Constant(3, Complex(1.0, 2.0));
-  norm.apply(x);
-  norm.apply_inverse(x);
-  EXPECT_TRUE(norm.is_plain());
-  EXPECT_EQ(x, ComplexVector::Constant(3, Complex(1.0, 2.0)));
-}
-
 /// T maps v to 20 u, u to 0.01 v: its square is 0.2, and a balanced norm makes the norm the root of that.
 TEST(AdaptedNorm, MakesAMapThatIsFarFromNormalSmall) {
   std::mt19937_64 engine{8};

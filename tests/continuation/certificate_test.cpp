@@ -102,21 +102,6 @@ TEST(Certificate, ClosesOnASmoothStepOfSingleModes) {
   EXPECT_LE(step.counts.certificate_factorizations, 3U * 15U) << "halved three times at most";
 }
 
-TEST(Certificate, ClosesOnASmoothStepOfABlock) {
-  Step step(smooth_family(), 0.2, 0.4);
-  step.join(0.4);
-  ASSERT_EQ(step.left.tracks[0].size(), 2);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(step.certified(i)) << "track " << i;
-}
-
-TEST(Certificate, StaysOpenWhereTheEndIsAnotherMode) {
-  Step step(smooth_family(), 0.2, 0.4);
-  std::swap(step.right.tracks[0], step.right.tracks[1]);
-  EXPECT_FALSE(step.certified(0));
-  EXPECT_FALSE(step.certified(1));
-  EXPECT_TRUE(step.certified(2));
-}
-
 /// A damped chain of masses, whose matrices have bands of width one, or its coordinates turned by a
 /// reflection, which fills the matrices and leaves all norms as they are.
 Setting chain_family(bool is_turned) {
@@ -294,14 +279,6 @@ TEST(ModalCertificate, ClosesOnASmoothStepOfAllModes) {
   EXPECT_EQ(step.counts.certificate_factorizations, 0U);
 }
 
-TEST(ModalCertificate, StaysOpenWhereTheEndIsAnotherMode) {
-  Step step(smooth_family(), 0.2, 0.4);
-  std::swap(step.right.tracks[0], step.right.tracks[1]);
-  const std::vector<bool> closed = certified_together(step);
-  EXPECT_FALSE(closed[0]);
-  EXPECT_FALSE(closed[1]);
-}
-
 TEST(ModalCertificate, StaysOpenWhereModesJumpOverAVeering) {
   // Each track arrives with the eigenpair of the other mode, because the corrector converges to the pair that
   // is nearest to the prediction.
@@ -311,13 +288,6 @@ TEST(ModalCertificate, StaysOpenWhereModesJumpOverAVeering) {
   }
   Step wide(veering(1.0), -0.1, 0.1);
   EXPECT_EQ(certified_together(wide), std::vector<bool>(2, true)) << "the modes turn together";
-}
-
-TEST(ModalCertificate, ClosesForABlockOnASmoothStep) {
-  Step step(smooth_family(), 0.2, 0.4);
-  step.join(0.4);
-  EXPECT_EQ(certified_together(step), (std::vector<bool>{true, true}));
-  EXPECT_EQ(step.counts.certificate_factorizations, 0U);
 }
 
 TEST(ModalCertificate, StaysOpenForABlockWhereTheEndIsAnotherOne) {
@@ -457,19 +427,6 @@ TEST(Certificate, ClosesWhereTheTangentBasisTurns) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(step.certified(i)) << "mode " << i;
   step.join(90.0);
   EXPECT_TRUE(step.certified(0)) << "as a block";
-}
-
-TEST(Certificate, EveryStepOfATraceThatClaimsItHasTheModesOfTheClosedForm) {
-  // Veerings of every width: where a step is marked as certified, the modes keep their order.
-  for (const double eps : {1e-1, 1e-2, 1e-4, 1e-6}) {
-    const RecordedTrace recorded = record_trace(veering(eps));
-    ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-    for (std::size_t i = 0; i < recorded.steps.size(); ++i) {
-      for (const DenseBlock& block : recorded.steps[i].blocks) EXPECT_TRUE(block.certified) << "eps " << eps;
-      const ComplexVector s = recorded.eigenvalues_of_node(i + 1);
-      EXPECT_LE(s[0].imag(), s[1].imag()) << "eps " << eps << " at " << recorded.nodes[i + 1].p;
-    }
-  }
 }
 
 }  // namespace

@@ -60,13 +60,6 @@ struct Chain {
   Matrix softening;  ///< of the springs by nothing, a tenth and a fifth in turn
 };
 
-TEST(EnergyNorm, OfAPositiveDefinitePencilIsItsRoot) {
-  const Chain chain(6, 50.0);
-  const Matrix R = root_of(chain.pencil, 0.7);
-  const Matrix P = value_of(chain.pencil, 0.7);
-  EXPECT_LT((R.transpose() * R - P).norm(), 1e-13 * P.norm());
-}
-
 /// Gyroscopic and circulatory forces do no work that is stored: x^T P x is the energy all the same.
 TEST(EnergyNorm, IsTheEnergyWhereThatIsPositive) {
   Chain chain(6, 50.0);

@@ -27,13 +27,6 @@ Coefficients random_series(Eigen::Index rows, Eigen::Index columns, std::mt19937
   return series;
 }
 
-double largest_difference(const Coefficients& a, const Coefficients& b) {
-  double worst = a.size() == b.size() ? 0.0 : INFINITY;
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-    worst = std::max(worst, (a[k] - b[k]).norm());
-  return worst;
-}
-
 /// W0^H Z + W1^H Z Lambda, which a fixed basis makes the unit matrix.
 Coefficients normalization(const ComplexMatrix& W, const Coefficients& Z, const Coefficients& Lambda) {
   const Eigen::Index n = Z[0].rows();
@@ -101,20 +94,6 @@ TEST_P(FixedBasis, IsTheSameFromWhateverBasis) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, FixedBasis, testing::Values(2, 3, 4));
 
-TEST(FixBasis, OfOneFixesTheLength) {
-  std::mt19937_64 engine(3);
-  Coefficients Z = random_series(4, 1, engine);
-  Coefficients Lambda = random_series(1, 1, engine);
-  const Coefficients before = Lambda;
-  ComplexMatrix W = ComplexMatrix::Zero(8, 1);
-  W.topRows(4) = random_complex(4, 1, engine);
-  Coefficients expected = Z;
-  fix_length(W.col(0).head(4), expected);
-  fix_basis(W, Z, Lambda);
-  EXPECT_EQ(largest_difference(Z, expected), 0.0);
-  EXPECT_EQ(largest_difference(Lambda, before), 0.0);
-}
-
 /// z = (1, h), w = (1, 1): z / (1 + h) = (1 - h + h^2 - ..., h - h^2 + ...).
 TEST(FixLength, DividesByTheSeriesOfTheLength) {
   Coefficients Z(count, ComplexMatrix::Zero(2, 1));
@@ -139,27 +118,6 @@ Planted turning() {
   const Matrix M = Matrix::Identity(4, 4);
   const Matrix K = Vector{{1.0, 4.0, 9.0, 16.0}}.asDiagonal();
   return Planted({{M}, {}, {K}, {Matrix{{1.0, 0.2, 0.0, 0.0}}, Matrix{{0.0, 1.0, 0.3, 0.0}}}});
-}
-
-TEST(InBasisOf, PhysicalVectorsOfAPointHaveTheirReducedCoordinates) {
-  Planted family = turning();
-  // Of the constrained pair of freedoms and x3 at p = 0: T^T K T with T = (0.2, -1) / |.|.
-  const Complex s = j * std::sqrt((0.04 + 4.0) / 1.04);
-  const PathNode node = family.point(0.0, alone({s, 3.0 * j, 4.0 * j}));
-  ASSERT_FALSE(node.basis.is_identity);
-  for (const Track& track : node.tracks) {
-    const Coefficients reduced = in_basis_of(node, track.series.Z);
-    EXPECT_EQ(reduced[0].rows(), 3);
-    EXPECT_LT((reduced[0] - track.pair.Z).norm(), rounding);
-    // The coefficient of order 0 lies in the tangent space, so the projection does not change it.
-    EXPECT_LT((node.basis.T[0].cast<Complex>() * reduced[0] - track.series.Z[0]).norm(), rounding);
-  }
-}
-
-TEST(InBasisOf, WithoutConstraintsNothingChanges) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{1.0, 0.1}, {2.0, -0.3}}));
-  const PathNode node = family.point(0.0, alone({1.0 * j, 2.0 * j}));
-  EXPECT_EQ(largest_difference(in_basis_of(node, node.tracks[0].series.Z), node.tracks[0].series.Z), 0.0);
 }
 
 /// Frequencies 2 + eigenvalues of N(p): three that turn about each other. N is symmetric.
@@ -213,33 +171,6 @@ TEST_F(BlockOfThree, IsInterpolatedInOneBasis) {
   EXPECT_LT(miss_in_the_middle(turned.left, turned.right), interpolation);
   // In the original bases of the two points, which are unrelated, the interpolation fails.
   EXPECT_GT(miss_in_the_middle(left.tracks[0].functions, right.tracks[0].functions), 1e-2);
-}
-
-TEST_F(BlockOfThree, LeftEndIsAsItWas) {
-  const DenseBlock block = block_on_step(left, right, 0);
-  EXPECT_EQ((block.left - left.tracks[0].functions).norm(), 0.0);
-  EXPECT_EQ(block.left.cols(), family.problem().order + 2);
-}
-
-TEST_F(BlockOfThree, FunctionsOfTAreThoseOfTheBlock) {
-  const DenseBlock block = block_on_step(left, right, 0);
-  const HermiteInterpolant of_block(length, block.left, block.right);
-  const HermiteInterpolant functions = functions_on_step(left, right, 0, length);
-  for (const double t : {0.0, 0.3, 1.0}) EXPECT_EQ((functions(t) - of_block(t)).norm(), 0.0) << t;
-}
-
-TEST(FunctionsOnStep, OfOneAndTwoNeedNoBasis) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.6, -1.0}, {7.0, 0.5}}));
-  const PathNode left = family.point(0.0, {{{2.0 * j, 2.6 * j}}, {{7.0 * j}}});
-  const PathNode right = family.point(0.5, {{{2.5 * j, 2.1 * j}}, {{7.25 * j}}});
-  const HermiteInterpolant two = functions_on_step(left, right, 0, 0.5);
-  const HermiteInterpolant one = functions_on_step(left, right, 1, 0.5);
-  EXPECT_EQ(block_on_step(left, right, 0).right, right.tracks[0].functions);
-  for (const double t : {0.0, 0.25, 0.6, 1.0}) {
-    EXPECT_LT(std::abs(two(t)[0] - 2.3 * j), rounding);
-    EXPECT_LT(std::abs(two(t)[1] + std::pow(0.3 - 0.5 * t, 2)), rounding);
-    EXPECT_LT(std::abs(one(t)[0] - (7.0 + 0.25 * t) * j), rounding);
-  }
 }
 
 TEST(FunctionsOnStep, StayInTheChart) {
