@@ -2,8 +2,6 @@
 // spectrum that no track has.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "continuation/planted_points.hpp"
 #include "continuation/tracks/completeness.hpp"
 #include "continuation/tracks/regrouping.hpp"
@@ -34,10 +32,6 @@ struct Followed {
   Spectrum spectrum;
   PathNode node;
 };
-
-TEST(Checksum, HoldsForAllModesOfAGeneralPencil) {
-  for (const unsigned seed : {1U, 2U, 3U}) EXPECT_TRUE(Followed(general(8, seed)).holds()) << seed;
-}
 
 TEST(Checksum, HoldsHoweverTheModesAreFollowed) {
   Followed all(general(6, 4));
@@ -111,10 +105,6 @@ TEST(Checksum, HoldsWithRigidBodyMotionAndSingularMass) {
   }
 }
 
-TEST(MissingModes, OfACompleteSetAreNone) {
-  EXPECT_TRUE(Followed(general(8, 7)).missing().empty());
-}
-
 TEST(MissingModes, AreThoseThatNoTrackHas) {
   Followed some(general(8, 7));
   const Complex first = some.node.tracks[2].roots[0];
@@ -150,12 +140,6 @@ TEST(MissingModes, ARealBlockStandsForItsPair) {
   Followed all(general(5, 9));
   ASSERT_TRUE(join(all.family.problem(), all.node, 2, {{true, 2, 0.0}}, all.family.counts));
   EXPECT_TRUE(all.missing().empty());
-}
-
-TEST(MissingModes, WithoutTracksAreAll) {
-  Followed none(general(5, 9));
-  none.node.tracks.clear();
-  EXPECT_EQ(none.missing().size(), 5U);
 }
 
 }  // namespace

@@ -53,19 +53,6 @@ TEST_P(CommonCollision, OfOneCycleHasItsOrder) {
   }
 }
 
-/// The rival is the product of the distances from the mean, det N = h^(k/2): its root is no simple one, and
-/// for odd k it is zero everywhere.
-TEST_P(CommonCollision, OfSquareRootsIsSeenByTheirSquares) {
-  const int k = GetParam();
-  for (const double beside : {1e-3, -1e-3, 1e-9, 0.0}) {
-    const auto meeting = common_collision(about(jordan(k), below(k), beside), lambda, reach);
-    ASSERT_TRUE(meeting) << beside;
-    EXPECT_NEAR(meeting->offset, -beside, 1e-12);
-    EXPECT_EQ(meeting->cycle, 2);
-    EXPECT_NEAR(std::abs(meeting->puiseux), std::sqrt(2.0 * (k - 1) / k), 1e-6);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Sizes, CommonCollision, testing::Values(3, 4, 5, 6, 8, 10));
 
 /// Two meet where a third is 1e-3 away: the sum of the squares has a root nearby, where nothing happens.

@@ -37,12 +37,6 @@ Matrix free_chain(Eigen::Index n) {
 const Matrix none = Matrix::Zero(3, 3);
 const Matrix unit = Matrix::Identity(3, 3);
 
-TEST(NullVectorCoordinate, IsTheOneThatNoMatrixMentions) {
-  const Matrix some = diagonal(Vector{{1.0, 0.0, 2.0}});
-  EXPECT_EQ(coordinate_of(some, none, some), "x2");
-  EXPECT_EQ(coordinate_of(some, some, diagonal(Vector{{3.0, 0.0, 0.0}})), "x2");
-}
-
 TEST(NullVectorCoordinate, OneMatrixIsEnoughToKeepAFreedom) {
   const Matrix two = diagonal(Vector{{1.0, 1.0, 0.0}});
   const Matrix third = diagonal(Vector{{0.0, 0.0, 1.0}});

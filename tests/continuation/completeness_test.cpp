@@ -30,10 +30,6 @@ struct Tracked {
 
 const std::string coupled = "[[4, 1, 0], [1, 6, 1], [0, 1, 9]]";
 
-TEST(DoubtfulTrack, ModesOfTheirOwnAreNot) {
-  EXPECT_FALSE(Tracked(coupled).is_doubtful());
-}
-
 TEST(DoubtfulTrack, SameEigenpairTwiceIs) {
   Tracked tracked(coupled);
   // The same eigenvector times a complex factor.

@@ -1,5 +1,5 @@
-// Eigenvalue branches of a block along a step: how many there are, and who is who behind a meeting. They do not
-// depend on the order in which places are sampled.
+// Eigenvalue branches of a block along a step: how many there are, and who is who behind a meeting. They do
+// not depend on the order in which places are sampled.
 #include "continuation/tracks/eigenvalue_branches.hpp"
 
 #include <gtest/gtest.h>

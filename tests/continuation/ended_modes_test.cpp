@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -92,34 +91,6 @@ K = [[[1, 0.1, 0.3], [0.1, 4, 0.2], [0.3, 0.2, 0]], [[0, 0, 0], [0, 0, 0], [0, 0
 )"));
   at_the_end = trace.eigenvalues_of_node(trace.nodes.size() - 1);
   return trace.result;
-}
-
-/// The massless freedom eliminated: x'' + (K - k k^T / p) x = 0.
-Eigen::Vector2d frequencies(double p) {
-  Eigen::Matrix2d K{{1.0, 0.1}, {0.1, 4.0}};
-  const Eigen::Vector2d k(0.3, 0.2);
-  K -= k * k.transpose() / p;
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(K).eigenvalues().cwiseSqrt();
-}
-
-TEST(ModeThatRunsToInfinity, EndsAndTheOthersGoOn) {
-  for (const double end : {-1.0, 1.0}) {
-    SCOPED_TRACE(end);
-    ComplexVector last;
-    const TraceResult result =
-        end < 0.0 ? through_infinity("1", "-1", last) : through_infinity("-1", "1", last);
-    EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
-    std::vector<double> found;
-    for (const Complex s : last) {
-      if (!std::isfinite(s.real())) continue;
-      EXPECT_NEAR(s.real(), 0.0, 1e-9);
-      found.push_back(s.imag());
-    }
-    std::sort(found.begin(), found.end());
-    ASSERT_EQ(found.size(), 2U);
-    for (int i = 0; i < 2; ++i) EXPECT_NEAR(found[static_cast<std::size_t>(i)], frequencies(end)[i], 1e-6);
-    EXPECT_FALSE(result.notes.empty());  // of the mode that ends, or of one that is added behind infinity
-  }
 }
 
 /// The magnitudes at which a mode ends, and is added again, are shares of the largest one at the start: this

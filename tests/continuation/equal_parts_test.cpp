@@ -256,18 +256,6 @@ TEST(PartCrossings, OfAllPartsAtOncePlaceAreOneEvent) {
   EXPECT_NEAR(crossing.s.imag(), std::sqrt(1.0 - 1e-4), 1e-10);
 }
 
-/// With different damping the frequencies are equal at p = 1/2, but the eigenvalues are not.
-TEST(PartCrossings, NeedEqualRealParts) {
-  for (const std::string c : {"0.1", "0.2"}) {
-    const RecordedTrace trace =
-        record_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\n"
-                                  "M = [[[1, 0], [0, 1]]]\nC = [[[0.1, 0], [0, " +
-                                  c + "]]]\nK = [[[1, 0], [0, 2]], [[1, 0], [0, -1]]]\n"));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-    EXPECT_EQ(trace.result.events.size(), c == "0.1" ? 1U : 0U);
-  }
-}
-
 /// A mass on equal springs with drag: s = -d/2 +- sqrt(d^2/4 - 1), each twice. A scene gives no coefficients
 /// from which its parts could be found; those are found from its matrices at a few places.
 RecordedTrace mass_on_equal_springs(const std::string& from, const std::string& to,

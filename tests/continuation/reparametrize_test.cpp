@@ -69,24 +69,6 @@ TEST(Reparametrize, NewCoordinateIsWhatThePlaneMeasures) {
   }
 }
 
-TEST(Reparametrize, TwoPlanesInARowAreTheSecond) {
-  const PathPlane plane{Vector::Constant(1, 0.7), 1.3};
-  Path direct = root_path();
-  reparametrize(direct, plane, traced);
-  Path detour = root_path();
-  reparametrize(detour, {Vector::Ones(1), 0.0}, traced);
-  reparametrize(detour, plane, traced);
-  EXPECT_LT(difference(direct.x, detour.x), 1e-12);
-  EXPECT_LT(difference(direct.parameters, detour.parameters), 1e-12);
-}
-
-TEST(Reparametrize, AlongItselfNothingChanges) {
-  Path path = root_path();
-  reparametrize(path, in_p, traced);
-  EXPECT_EQ(difference(path.x, root_path().x), 0.0);
-  EXPECT_EQ(difference(path.parameters, root_path().parameters), 0.0);
-}
-
 /// The plane contains the direction of the path. The path does not cross it and has no series in its
 /// coordinate.
 TEST(Reparametrize, OnAPlaneAlongThePathHasNoSeries) {

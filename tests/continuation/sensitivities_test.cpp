@@ -57,17 +57,6 @@ TEST(EffectInfluences, OfAForceThatConstraintsTakeIsNone) {
   EXPECT_LT(of(influences, "gravity").norm(), 1e-12);
 }
 
-/// Strengths of all forces scale K, those of the drag C: s = -(k e) / ... of every mode adds up.
-TEST(EffectInfluences, OfAllEffectsTogetherAreThatOfScalingThePencil) {
-  const Influences influences = effect_influences(mass_on_springs(3.0));
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const Complex s = influences.s[i];
-    // d/de of s^2 m + e (r s + k) = 0, with r s + k = -s^2 m.
-    const Complex together = mass * s * s / (2.0 * mass * s + drag);
-    EXPECT_LT(std::abs(of(influences, "guided_spring")[i] + of(influences, "drag")[i] - together), 1e-11);
-  }
-}
-
 /// One spring along (0.6, 0.8) and one across it, of the same stiffness. The eigenvectors of the double
 /// eigenvalue are not unique, so the influence of a single spring on it is not defined.
 TEST(EffectInfluences, DoubleEigenvalueHasNone) {

@@ -45,29 +45,6 @@ InvariantPair corrected(const ReducedPencil& pencil, const StartingGroup& group)
   return correct_pair(PencilAtPoint(pencil), group.pair, s_ref, {}, counts);
 }
 
-TEST(StartingGroups, ModesThatAreApartStartAlone) {
-  const ReducedPencil pencil = undamped(diagonal(Vector{{1.0, 4.0, 9.0}}));
-  const auto groups = groups_of(pencil, 3);
-  ASSERT_EQ(groups.size(), 3U);
-  for (int i = 0; i < 3; ++i) {
-    const StartingGroup& group = groups[static_cast<std::size_t>(i)];
-    EXPECT_EQ(group.modes, Modes{i});
-    EXPECT_LT(std::abs(group.roots[0] - (i + 1.0) * j), 1e-13);
-    EXPECT_EQ(group.pair.Lambda(0, 0), group.roots[0]);
-    EXPECT_FALSE(group.pair.is_real);
-    EXPECT_EQ(corrected(pencil, group).status, PairStatus::converged);
-  }
-}
-
-TEST(StartingGroups, ThoseThatAreNotFollowedAreLeftOut) {
-  const ReducedPencil pencil = undamped(diagonal(Vector{{1.0, 4.0, 9.0}}));
-  const auto groups = groups_of(pencil, 2);
-  ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[1].modes, Modes{1});
-  EXPECT_TRUE(groups_of(pencil, 0).empty());
-  EXPECT_TRUE(starting_groups(pencil, {}, 3, s_ref).empty());
-}
-
 TEST(StartingGroups, VectorsThatWereNotAskedForAreFound) {
   const Matrix K{{2.0, -1.0, 0.0}, {-1.0, 3.0, -1.0}, {0.0, -1.0, 4.0}};
   const ReducedPencil pencil = undamped(K);

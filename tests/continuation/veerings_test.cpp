@@ -13,61 +13,6 @@
 namespace eigentrail::test::veerings_test {
 namespace {
 
-/// Frequencies 2 -+ hypot(p - at, eps).
-struct Veering {
-  Veering(double place, double half_width)
-      : at(place),
-        eps(half_width),
-        planted(Planted::frequencies({Matrix{{2.0 - place, half_width}, {half_width, 2.0 + place}},
-                                      Matrix{{1.0, 0.0}, {0.0, -1.0}}})) {}
-  std::vector<Together> modes(double p) const {
-    const double half = std::hypot(p - at, eps);
-    return alone({(2.0 - half) * j, (2.0 + half) * j});
-  }
-  FoundEvents find(double from, double to) {
-    const PathNode left = planted.family.point(from, modes(from));
-    return find_veerings(planted.search, planted.step(left, to, modes(to)));
-  }
-  double at, eps;
-  PlantedSearch planted;
-};
-
-TEST(FindVeerings, GivesPlaceAndHalfWidth) {
-  for (const double eps : {0.019, 0.003}) {
-    Veering veering(0.05, eps);
-    const FoundEvents found = veering.find(0.0, 0.12);
-    ASSERT_EQ(found.events.size(), 1U) << eps;
-    const Event& event = found.events[0];
-    EXPECT_EQ(event.kind, EventKind::veering);
-    EXPECT_NEAR(event.p, 0.05, 1e-9);
-    EXPECT_NEAR(event.half_width, eps, 1e-9);
-    EXPECT_NEAR(std::abs(event.s - 2.0 * j), 0.0, 1e-9) << "the mean";
-    EXPECT_EQ(event.modes, (std::vector<int>{0, 1}));
-  }
-}
-
-TEST(FindVeerings, DoesSoAgainstTheDirectionOfTheParameter) {
-  Veering veering(0.05, 0.015);
-  const FoundEvents found = veering.find(0.12, 0.0);
-  ASSERT_EQ(found.events.size(), 1U);
-  EXPECT_NEAR(found.events[0].p, 0.05, 1e-9);
-}
-
-TEST(FindVeerings, LeavesOutWhatIsFarFromTheStepOrTooWide) {
-  Veering far(0.5, 0.05);
-  EXPECT_TRUE(far.find(0.0, 0.12).events.empty());
-  Veering wide(0.05, 1.0);
-  EXPECT_TRUE(wide.find(0.0, 0.12).events.empty());
-}
-
-TEST(FindVeerings, DoesNotLocateAgainWhatIsRecorded) {
-  Veering veering(0.05, 0.015);
-  FoundEvents found = veering.find(0.0, 0.12);
-  ASSERT_EQ(found.events.size(), 1U);
-  veering.planted.events = found.events;
-  EXPECT_TRUE(veering.find(0.0, 0.12).events.empty());
-}
-
 /// Modes that have nothing to do with each other cross; that is no veering.
 TEST(FindVeerings, OfUncoupledModesAreNone) {
   PlantedSearch planted(Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.1, -1.0}})));
@@ -109,6 +54,14 @@ TEST(FindVeerings, OfABlockAreThoseOfItsModesAlone) {
     EXPECT_LT(std::abs(event.sensitivity[0] - 0.5 * j), 1e-7);
     EXPECT_TRUE(std::isnan(event.shift[0]));
   }
+}
+
+TEST(FindVeerings, DoesNotLocateAgainWhatIsRecorded) {
+  Sloping sloping(0.015);
+  FoundEvents found = sloping.find(0.09, 0.0, false);
+  ASSERT_EQ(found.events.size(), 1U);
+  sloping.planted.events = found.events;
+  EXPECT_TRUE(sloping.find(0.0, 0.09, false).events.empty());
 }
 
 /// Down to where a step would end on them, at 3e-3 of its length.
