@@ -187,17 +187,6 @@ TEST(HasNoRootWithin, TellsTheRadiusOfALinearPolynomial) {
   EXPECT_FALSE(has_no_root_within(c, 2.1));
 }
 
-TEST(HasNoRootWithin, IsOnTheSafeSide) {
-  const std::vector<Complex> roots{Complex(0.5, 2.0), -3.0, Complex(2.0, -1.0)};
-  for (const double radius : {0.1, 0.5, 1.0, 2.0, 3.0}) {
-    if (has_no_root_within(coefficients(roots), radius)) {
-      for (const Complex root : roots) EXPECT_GT(std::abs(root), radius);
-    }
-  }
-  EXPECT_TRUE(has_no_root_within(coefficients(roots), 0.1));
-  EXPECT_FALSE(has_no_root_within(ComplexVector::Zero(3), 0.1));
-}
-
 /// Whether the root lies in the rectangle.
 bool is_inside(Complex root, const Rectangle& rectangle) {
   const Complex offset = root - rectangle.center;

@@ -112,26 +112,6 @@ TEST_F(Hdf5FileTest, FileInMemoryGoesOnFromItsImage) {
             "not found");
 }
 
-TEST_F(Hdf5FileTest, ComplexNumbersAreACompoundOfRAndI) {
-  const std::vector<Complex> data = {{1.0, -2.0}, {0.0, 1e-3}, {-4.5, 0.0}};
-  {
-    Hdf5Writer file = Hdf5Writer::create(path);
-    file.create_dataset(fixed("s", ElementType::complex, {3}));
-    file.write_rows("s", 0, data);
-  }
-  EXPECT_EQ(Hdf5File::open(path).read_complex("s"), data);
-  with_hdf5(path, [](hid_t file) {
-    const hid_t set = H5Dopen2(file, "s", H5P_DEFAULT);
-    const hid_t type = H5Dget_type(set);
-    EXPECT_EQ(H5Tget_nmembers(type), 2);
-    EXPECT_EQ(H5Tget_member_index(type, "r"), 0);
-    EXPECT_EQ(H5Tget_member_index(type, "i"), 1);
-    EXPECT_EQ(H5Tget_size(type), 2 * sizeof(double));
-    H5Tclose(type);
-    H5Dclose(set);
-  });
-}
-
 TEST_F(Hdf5FileTest, IntegersAreStoredAsIntegersOf64Bits) {
   const std::vector<std::int64_t> data = {0, -7, std::int64_t{1} << 40, INT64_MIN};
   {
@@ -269,35 +249,6 @@ TEST_F(Hdf5FileTest, AttributesKeepTheirTypeAndTheirLastValue) {
                                                                         {"status", "completed"},
                                                                         {"title", "Träger"},
                                                                         {"tolerance", "1e-08"}}));
-}
-
-TEST_F(Hdf5FileTest, ScalesBelongToTheDimensionTheyWereAttachedTo) {
-  {
-    Hdf5Writer file = Hdf5Writer::create(path);
-    file.create_dataset(fixed("p", ElementType::real, {3}));
-    file.create_dataset(fixed("s", ElementType::complex, {3, 2}));
-    file.create_dataset(fixed("order", ElementType::integer, {2}));
-    file.make_scale("p", "rotation speed");
-    file.make_scale("order", "order");
-    file.attach_scale("s", "p", 0);
-    file.attach_scale("s", "order", 1);
-  }
-  with_hdf5(path, [](hid_t file) {
-    const hid_t scale = H5Dopen2(file, "p", H5P_DEFAULT);
-    const hid_t set = H5Dopen2(file, "s", H5P_DEFAULT);
-    std::array<char, 64> name{};
-    EXPECT_GT(H5DSis_scale(scale), 0);
-    EXPECT_GT(H5DSget_scale_name(scale, name.data(), name.size()), 0);
-    EXPECT_STREQ(name.data(), "rotation speed");
-    EXPECT_GT(H5DSis_attached(set, scale, 0), 0);
-    EXPECT_EQ(H5DSis_attached(set, scale, 1), 0);
-    const hid_t order = H5Dopen2(file, "order", H5P_DEFAULT);
-    EXPECT_EQ(H5DSis_attached(set, order, 0), 0);
-    EXPECT_GT(H5DSis_attached(set, order, 1), 0);
-    H5Dclose(order);
-    H5Dclose(set);
-    H5Dclose(scale);
-  });
 }
 
 TEST_F(Hdf5FileTest, HasFollowsNestedPaths) {

@@ -217,38 +217,6 @@ TEST(Series, QuotientTimesDivisorGivesBackTheDividend) {
   }
 }
 
-struct Inverse {
-  std::string name;
-  std::function<S(const S&)> identity;
-};
-
-TEST(Series, FunctionsUndoTheirInverses) {
-  // Series of an inverse function near the end of its domain grow like powers of 1 / (1 - x0^2).
-  constexpr double amplified_rounding = 1e-11;
-  const std::vector<Inverse> table = {
-      {"square of square root", [](const S& x) { return sqrt(x) * sqrt(x); }},
-      {"square root of square", [](const S& x) { return sqrt(x * x); }},
-      {"exp of log", [](const S& x) { return exp(log(x)); }},
-      {"log of exp", [](const S& x) { return log(exp(x)); }},
-      {"sin of asin", [](const S& x) { return sin(asin(x)); }},
-      {"cos of acos", [](const S& x) { return cos(acos(x)); }},
-      {"tan of atan", [](const S& x) { return tan(atan(x)); }},
-      {"power and root", [](const S& x) { return pow(integer_power(x, 3), S(1.0 / 3.0)); }}};
-  for (const Inverse& row : table) {
-    for (const S& x : generic_series(20)) {
-      EXPECT_LT(relative_difference(row.identity(x), x), amplified_rounding) << row.name;
-    }
-  }
-}
-
-TEST(Series, CircularAndHyperbolicFunctionsKeepTheirInvariants) {
-  for (const S& x : generic_series(20)) {
-    EXPECT_LT(relative_difference(sin(x) * sin(x) + cos(x) * cos(x), S(1.0)), rounding);
-    EXPECT_LT(relative_difference(cosh(x) * cosh(x) - sinh(x) * sinh(x), S(1.0)), rounding);
-    EXPECT_LT(relative_difference(asin(x) + acos(x), S(std::acos(0.0))), rounding);
-  }
-}
-
 TEST(Series, PowerWithVaryingExponentIsTheExponentialOfItsLogarithm) {
   // d/dx x^x = x^x (1 + log x)
   const S x = series({1.4, 1.0});

@@ -116,15 +116,6 @@ TEST(RootErrors, OfTwoFollowTheDiscriminant) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Blocks, testing::Range(Eigen::Index{1}, Eigen::Index{5}));
 
-TEST(BlockFunctions, OfTwoDoNotDependOnTheBasis) {
-  const ComplexVector eigenvalues{{Complex(-0.1, 3.0), Complex(-0.2, 3.4)}};
-  const ComplexVector first = functions_of(block_with(eigenvalues, 1));
-  const ComplexVector second = functions_of(block_with(eigenvalues, 2));
-  EXPECT_LT((first - second).norm(), 10.0 * rounding);
-  EXPECT_LT(std::abs(first[0] - Complex(-0.15, 3.2)), 10.0 * rounding);
-  EXPECT_LT(std::abs(first[1] - std::pow(Complex(0.05, -0.2), 2)), 10.0 * rounding);
-}
-
 TEST(BlockFunctions, OfTwoKeepTheirDigitsWhereTheEigenvaluesMeet) {
   // Eigenvalues tau +- 1e-9: delta = 1e-18 is accurate to nine digits, as accurate as Lambda determines it.
   // The formula tau^2 - det has no correct digit.
@@ -216,12 +207,6 @@ TEST(RootError, NearAMeetingCountsTheLeastGap) {
   const ComplexVector meeting{{Complex(0.0, 3.0), Complex(0.0)}};
   const Vector errors{{1e-9, 1e-9}};
   EXPECT_DOUBLE_EQ(root_error(meeting, errors, 0.2), 1e-9 + 1e-9 / 0.2);
-}
-
-TEST(RootSeries, OfABlockOfOneIsItself) {
-  ComplexMatrix functions(1, 4);
-  functions << Complex(0.0, 3.0), 0.5, Complex(0.1, 0.2), -0.3;
-  EXPECT_EQ(root_series(functions, functions(0, 0)), functions.row(0).transpose());
 }
 
 /// Eigenvalues that are known series a_i(h), in a basis that turns with h.

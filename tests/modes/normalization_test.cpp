@@ -62,13 +62,6 @@ TEST(NormalizeShape, OverlapWithTheReferenceIsRealAndPositive) {
   }
 }
 
-TEST(NormalizeShape, IsItsOwnFixedPointAndForgetsThePhaseItCameWith) {
-  const Matrix M = mass_matrix(4);
-  const ComplexVector shape = normalize_shape(random_shape(4, 1), M, ComplexVector());
-  EXPECT_LT((normalize_shape(shape, M, shape) - shape).norm(), rounding);
-  EXPECT_LT((normalize_shape(std::polar(7.0, 2.2) * shape, M, shape) - shape).norm(), rounding);
-}
-
 TEST(NormalizeShape, FollowsAReferenceSmoothlyWhereTheLargestComponentChanges) {
   // v(t) turns from the first component to the second. A normalization that makes the largest component real
   // would jump.

@@ -55,18 +55,6 @@ class Regroup : public testing::TestWithParam<unsigned> {
   std::vector<InvariantPair> modes;
 };
 
-TEST_P(Regroup, ConjugateMakesARealBlockOfTwice) {
-  for (const InvariantPair& mode : modes) {
-    const Complex s = mode.eigenvalue();
-    if (s.imag() == 0.0) continue;
-    const InvariantPair pair = with_conjugate(mode);
-    ASSERT_EQ(pair.size(), 2);
-    EXPECT_TRUE(pair.is_real && is_exactly_real(pair));
-    EXPECT_LT(relative_residual(pencil, pair), tolerance);
-    EXPECT_LT(matched_distance({s, std::conj(s)}, list(pair_eigenvalues(pair))), tolerance);
-  }
-}
-
 TEST_P(Regroup, ConjugateOfABlockOfTwoMakesARealBlockOfFour) {
   const InvariantPair both = join_pairs({&modes[0], &modes[1]}, false);
   const InvariantPair pair = with_conjugate(both);
@@ -116,22 +104,6 @@ TEST_P(Regroup, PartsOfABlockAreInvariantAgain) {
     std::vector<Complex> expected;
     for (const int i : part) expected.push_back(eigenvalues[i]);
     EXPECT_LT(matched_distance(expected, list(pair_eigenvalues(pair))), 10.0 * tolerance);
-  }
-}
-
-TEST_P(Regroup, ModesThatWereJoinedComeBack) {
-  const InvariantPair block = corrected(join_pairs({&modes[1], &modes[3]}, false));
-  const ComplexVector eigenvalues = pair_eigenvalues(block);
-  for (int i = 0; i < 2; ++i) {
-    const InvariantPair mode = part_of(block, eigenvalues, {i});
-    const bool first = std::abs(mode.eigenvalue() - modes[1].eigenvalue()) <
-                       std::abs(mode.eigenvalue() - modes[3].eigenvalue());
-    const InvariantPair& expected = modes[first ? 1 : 3];
-    EXPECT_LT(std::abs(mode.eigenvalue() - expected.eigenvalue()),
-              10.0 * tolerance * std::abs(expected.eigenvalue()));
-    const double cosine =
-        std::abs(mode.Z.col(0).dot(expected.Z.col(0))) / (mode.Z.norm() * expected.Z.norm());
-    EXPECT_NEAR(cosine, 1.0, tolerance);
   }
 }
 

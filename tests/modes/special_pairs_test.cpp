@@ -32,21 +32,6 @@ InvariantPair exceptional_start(double offset) {
   return start;
 }
 
-TEST(ExceptionalPoint, BlockOfTwoConvergesToRounding) {
-  const ReducedPencil pencil = exceptional_family(0.5);
-  ModeCounts counts;
-  const InvariantPair pair = correct_pair(PencilAtPoint(pencil), exceptional_start(0.05), s_ref, {}, counts);
-  ASSERT_EQ(pair.status, PairStatus::converged);
-  EXPECT_LT(pair.backward_error, 1e-15);
-  EXPECT_LT(pair.condition, 1e2);
-  const ComplexMatrix functions = block_functions({pair.Lambda});
-  const Complex s(0.0, std::sqrt(1.5));
-  EXPECT_LT(std::abs(functions(0, 0) - s), rounding);
-  EXPECT_LT(std::abs(functions(1, 0)), rounding);
-  // The block is defective: (Lambda - tau)^2 vanishes and Lambda - tau does not.
-  EXPECT_GT((pair.Lambda - functions(0, 0) * ComplexMatrix::Identity(2, 2)).norm(), 0.1);
-}
-
 TEST(ExceptionalPoint, TwoSinglesDoNotConvergeToRounding) {
   // Newton's method at a double root halves the error in every step, and ends at the square root of rounding.
   const ReducedPencil pencil = exceptional_family(0.5);
@@ -58,14 +43,6 @@ TEST(ExceptionalPoint, TwoSinglesDoNotConvergeToRounding) {
     EXPECT_TRUE(mode.status != PairStatus::converged || mode.condition > 1e6);
     EXPECT_GT(std::abs(mode.eigenvalue() - s), 1e-11) << "as good as the block";
   }
-}
-
-TEST(ExceptionalPoint, DefectiveEigenvalueIsIllConditionedOrRefused) {
-  const ReducedPencil pencil = exceptional_family(0.5);
-  ModeCounts counts;
-  const ComplexVector z{{Complex(1.0), Complex(0.8)}};
-  const InvariantPair mode = correct_mode(PencilAtPoint(pencil), {0.0, 1.2}, z, counts);
-  EXPECT_TRUE(mode.status != PairStatus::converged || mode.condition > 1e6);
 }
 
 /// s1 + s2 and s1 s2 in closed form: tau^2 + delta = -3/2 and tau^2 - delta = -sqrt(2 + p^2).

@@ -111,14 +111,6 @@ TEST(EigenvectorNear, FindsTheVectorOfAVanishingEigenvalue) {
   EXPECT_LT((K * z).norm(), 1e-10);
 }
 
-TEST(Spectrum, IsSortedByMagnitude) {
-  const ReducedPencil pencil = at(random_family(9, 4), 0.0);
-  const Spectrum spectrum = compute_spectrum(pencil.M[0], pencil.C[0], pencil.K[0]);
-  for (std::size_t i = 1; i < spectrum.modes.size(); ++i) {
-    EXPECT_LE(std::abs(spectrum.modes[i - 1].s), std::abs(spectrum.modes[i].s));
-  }
-}
-
 /// A lightly damped chain with the time unit 1e-7 s: M s^2 + C s + K with entries apart by 1e14.
 TEST(Spectrum, ScalingSavesTheDigitsThatAnUnscaledSolutionLoses) {
   const Eigen::Index n = 6;
@@ -157,14 +149,6 @@ TEST(Spectrum, SingularMassGivesInfiniteEigenvalues) {
   EXPECT_EQ(spectrum.n_infinite, 2);
   ASSERT_EQ(spectrum.modes.size(), 1U);
   EXPECT_NEAR(spectrum.modes[0].s.imag(), std::sqrt(3.5), 1e-13);
-}
-
-TEST(Spectrum, RigidBodyModesAreZeros) {
-  const Matrix K{{1.0, -1.0}, {-1.0, 1.0}};
-  const Spectrum spectrum = compute_spectrum(Matrix::Identity(2, 2), Matrix::Zero(2, 2), K);
-  ASSERT_EQ(spectrum.status, SpectrumStatus::complete);
-  EXPECT_NEAR(std::abs(spectrum.modes.front().s), 0.0, 1e-7);
-  EXPECT_NEAR(spectrum.modes.back().s.imag(), std::sqrt(2.0), 1e-13);
 }
 
 /// Members of `spectrum` and their conjugates by distance from `centre`, the nearest k.

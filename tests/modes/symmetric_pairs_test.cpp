@@ -95,10 +95,6 @@ class SymmetricFamily : public testing::TestWithParam<unsigned> {
   ModeCounts counts;
 };
 
-TEST_P(SymmetricFamily, SingleModesAgreeWithThoseFollowedOneByOne) {
-  expect_agreement(starts_of(family, 1e-4));
-}
-
 TEST_P(SymmetricFamily, PhasesAreThoseOfTheStarts) {
   std::vector<InvariantPair> starts = starts_of(family, 1e-4);
   for (std::size_t i = 0; i < starts.size(); ++i)
