@@ -191,35 +191,6 @@ AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft) {
   return pencil;
 }
 
-AffinePencil<SparseMatrix> two_plates(int cells, double softer, double coupling) {
-  const AffinePencil<SparseMatrix> plate = rotating_plate({cells, 0.0, 0.0});
-  const Eigen::Index half = plate.K.front().matrix.rows(), n = 2 * half;
-  const auto twice = [&](const std::vector<AffineTerm<SparseMatrix>>& terms, double second) {
-    std::vector<AffineTerm<SparseMatrix>> result;
-    for (const AffineTerm<SparseMatrix>& term : terms) {
-      Triplets entries;
-      for (int j = 0; j < term.matrix.outerSize(); ++j) {
-        for (SparseMatrix::InnerIterator e(term.matrix, j); e; ++e) {
-          entries.emplace_back(e.row(), e.col(), e.value());
-          entries.emplace_back(e.row() + half, e.col() + half, second * e.value());
-        }
-      }
-      result.push_back({term.factor, from_triplets(n, entries)});
-    }
-    return result;
-  };
-  AffinePencil<SparseMatrix> pencil{twice(plate.M, 1.0), {}, twice(plate.K, softer)};
-  Triplets C;
-  for (Eigen::Index i = 0; i < half; ++i) {
-    C.emplace_back(i, i + half, coupling);
-    C.emplace_back(i + half, i, coupling);
-  }
-  if (coupling != 0.0) pencil.K.push_back({1.0, from_triplets(n, C)});
-  // One plate stiffens with the speed and the other does not: their modes meet.
-  pencil.K[1].matrix = twice({plate.K[1]}, 0.0).front().matrix;
-  return pencil;
-}
-
 TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes,
                        double tolerance) {
   TraceSetup setup;

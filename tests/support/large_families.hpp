@@ -43,10 +43,6 @@ struct SolidShaft {
 };
 AffinePencil<SparseMatrix> solid_shaft(const SolidShaft& shaft);
 
-/// Two plates beside each other, whose modes do not know of each other but for `coupling` times a symmetric
-/// matrix; the second one is softer by `softer`.
-AffinePencil<SparseMatrix> two_plates(int cells, double softer, double coupling);
-
 /// A trace of a sparse family over its parameter "omega" (rad/s), ready for `project` and `trace`.
 TraceSetup large_setup(AffinePencil<SparseMatrix> pencil, double from, double to, int modes,
                        double tolerance);
