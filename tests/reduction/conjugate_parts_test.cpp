@@ -94,57 +94,6 @@ TEST(ConjugateParts, KeepCoordinatesAndSymmetry) {
   EXPECT_EQ(there->left, there->right);
 }
 
-/// Reduced pencils have the canonical form without rounding, and the eigenvalues of a + ib.
-TEST(ConjugateParts, OfAPencilHaveExactlyTheCanonicalForm) {
-  const Matrix T = mixing(6, 9);
-  const CoefficientMatrices given = isotropic_shaft(3), all = in_coordinates(given, T, T);
-  Linearization linearization;
-  linearization.M = {all.M[0]};
-  linearization.C = {Matrix(all.C[0] + 0.4 * all.C[1]), all.C[1]};
-  linearization.K = {all.K[0]};
-  const auto parts = pairs_of(all);
-  ASSERT_NE(parts, nullptr);
-  const ReducedPencil pencil = reduce(linearization, basis_of(parts), 2);
-  ASSERT_EQ(pencil.parts.size(), 2U);
-  EXPECT_EQ(pencil.size(), 6);
-  for (int i = 0; i < 2; ++i) {
-    const ReducedPencil& part = pencil.of(i);
-    EXPECT_EQ(part.complex_sign, i == 0 ? 1 : -1);
-    for (const auto* series : {&part.M, &part.C, &part.K}) {
-      for (const Matrix& A : *series) EXPECT_EQ(A, canonical_form(A));
-    }
-    const auto squares = [](const ComplexMatrix& M, const ComplexMatrix& K) {
-      ComplexVector values =
-          Eigen::ComplexEigenSolver<ComplexMatrix>(ComplexMatrix(M.inverse() * K), false).eigenvalues();
-      std::sort(values.begin(), values.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
-      return values;
-    };
-    const auto block = [&](const Matrix& A) { return complex_block(A, part.complex_sign); };
-    // Of K + 0.3 C, which both halves have with its conjugate.
-    ComplexMatrix shaft(3, 3);
-    const Matrix whole = given.K[0] + 0.3 * (given.C[0] + 0.4 * given.C[1]);
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      for (Eigen::Index b = 0; b < 3; ++b)
-        shaft(a, b) = Complex(whole(2 * a, 2 * b), part.complex_sign * whole(2 * a + 1, 2 * b));
-    }
-    EXPECT_LT((squares(block(part.M[0]), block(part.K[0]) + 0.3 * block(part.C[0])) -
-               squares(ComplexMatrix::Identity(3, 3), shaft))
-                  .norm(),
-              1e-11 * shaft.norm());
-  }
-}
-
-TEST(ConjugateParts, AreNoneWhereDirectionsDiffer) {
-  for (const double difference : {1e-3, 1e-9, 1e-11}) {
-    for (const bool mixed : {false, true}) {
-      CoefficientMatrices all = isotropic_shaft(4);
-      all.K[0](0, 0) *= 1.0 + difference;
-      if (mixed) all = in_coordinates(all, mixing(8, 4), mixing(8, 4));
-      EXPECT_EQ(pairs_of(all), nullptr) << difference;
-    }
-  }
-}
-
 /// Without gyroscopic moments both directions are equal parts, of which one is followed: no pair.
 TEST(ConjugateParts, AreNoneWhereBothDirectionsAreEqualParts) {
   CoefficientMatrices all = isotropic_shaft(3);
@@ -187,20 +136,6 @@ TEST(ConjugateParts, AreFoundAmongOtherPartsAndCopies) {
       }
     }
   }
-}
-
-TEST(ConjugateParts, JoinedAreRealPartsInTheSameCoordinates) {
-  const auto parts = pairs_of(isotropic_shaft(3));
-  ASSERT_NE(parts, nullptr);
-  std::vector<int> numbers;
-  const auto kept = joined_pairs(*parts, {false, false}, numbers);
-  EXPECT_EQ(complex_signs_of(*kept), std::vector<int>({1, -1}));
-  EXPECT_EQ(numbers, std::vector<int>({0, 1}));
-  const auto joined = joined_pairs(*parts, {true, true}, numbers);
-  EXPECT_EQ(complex_signs_of(*joined), std::vector<int>({0}));
-  EXPECT_EQ(numbers, std::vector<int>({0, 0}));
-  EXPECT_EQ(joined->right, parts->right);
-  EXPECT_EQ(joined->freedoms(), parts->freedoms());
 }
 
 }  // namespace

@@ -103,16 +103,6 @@ std::vector<Matrix> columns_side_by_side(int count) {
   return all;
 }
 
-TEST(IndependentParts, OfEqualColumnsAreTheColumns) {
-  for (const int count : {2, 3, 4, 6}) {
-    std::vector<Matrix> all = columns_side_by_side(count);
-    expect_parts(all, Sizes(static_cast<std::size_t>(count), 2));
-    const Matrix Q = orthogonal(2 * count, 5);
-    for (Matrix& A : all) A = Q.transpose() * A * Q;
-    expect_parts(all, Sizes(static_cast<std::size_t>(count), 2));
-  }
-}
-
 /// In any coordinates of equations and unknowns, symmetric or not, one column stands for all.
 TEST(IndependentParts, StandForTheirCopies) {
   for (const int count : {2, 3, 6}) {
@@ -144,21 +134,6 @@ TEST(IndependentParts, OfSeveralFreedomsHaveCopies) {
     ASSERT_EQ(parts->count(), 1U) << size;
     EXPECT_EQ(parts->ranges.front().copies.size(), 2U);
   }
-}
-
-/// A complex pair of parts, with the commutant of the complex numbers, that is there twice.
-TEST(IndependentParts, OfComplexPairsHaveCopies) {
-  const Matrix J{{0.0, -1.0}, {1.0, 0.0}};
-  const Matrix I = Matrix::Identity(2, 2);
-  const auto twice = [&](const Matrix& A) { return side_by_side(A, A); };
-  const Matrix Q = orthogonal(4, 3);
-  std::vector<Matrix> all{twice(I), twice(J), twice(Matrix(2.0 * I + 0.3 * J))};
-  for (Matrix& A : all) A = Q.transpose() * A * Q;
-  const auto parts = find_independent_parts({{all[0]}, {all[1]}, {all[2]}});
-  ASSERT_NE(parts, nullptr);
-  ASSERT_EQ(parts->count(), 1U);
-  EXPECT_EQ(parts->ranges.front().size, 2);
-  EXPECT_EQ(parts->ranges.front().copies.size(), 1U);
 }
 
 /// Mistuning of 1e-10 makes parts of their own; of 1e-16 it is rounding.
@@ -301,35 +276,6 @@ TEST(IndependentParts, BalanceUnits) {
   const TangentBasis basis = basis_of(parts);
   EXPECT_EQ(basis.shapes(Z, 0), ComplexMatrix(parts->right * Z));
   EXPECT_EQ(basis.coordinates(basis.shapes(Z, 0), 0), Z);
-}
-
-TEST(IndependentParts, OfAPencilHaveItsEigenvalues) {
-  const std::vector<Matrix> all = columns_side_by_side(3);
-  const Matrix Q = mixing(6, 8);
-  Linearization linearization;
-  linearization.M = {Matrix(Q.transpose() * all[0] * Q)};
-  linearization.C = {Matrix(Matrix::Zero(6, 6))};
-  linearization.K = {Matrix(Q.transpose() * (all[1] + 0.7 * all[2]) * Q), Matrix(Q.transpose() * all[2] * Q)};
-  const auto mixed = [&](const Matrix& A) { return Matrix(Q.transpose() * A * Q); };
-  const auto parts = find_independent_parts({{mixed(all[0])}, {}, {mixed(all[1]), mixed(all[2])}});
-  ASSERT_NE(parts, nullptr);
-  const ReducedPencil pencil = reduce(linearization, basis_of(parts), 3);
-  EXPECT_EQ(pencil.size(), 2);
-  EXPECT_EQ(pencil.copies, 2);
-  const auto squares = [](const Matrix& M, const Matrix& K) {
-    ComplexVector values = Eigen::EigenSolver<Matrix>(Matrix(M.inverse() * K), false).eigenvalues();
-    std::sort(values.begin(), values.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
-    return values;
-  };
-  const ComplexVector one = squares(ziegler_M, ziegler_K + 0.7 * ziegler_P);
-  EXPECT_LT((squares(pencil.M[0], pencil.K[0]) - one).norm(), rounding);
-  EXPECT_EQ(pencil.K.size(), 2U);
-  // The columns of a copy, in place of those of the part, give the same equations.
-  for (const int copy : {1, 2}) {
-    const ReducedPencil other = reduce(linearization, basis_with_copy(basis_of(parts), 0, copy), 3);
-    EXPECT_LT((other.K[0] - pencil.K[0]).norm(), rounding * pencil.K[0].norm());
-    EXPECT_LT((other.M[0] - pencil.M[0]).norm(), rounding * pencil.M[0].norm());
-  }
 }
 
 }  // namespace
