@@ -276,30 +276,6 @@ TEST(MatrixFamily, EquilibriumIsKnownAndNeverSolved) {
   EXPECT_EQ(recorded.result.counts.equilibrium_factorizations, 0U);
 }
 
-TEST(MatrixFamily, PassesAnExceptionalPointAndSaysWhere) {
-  const RecordedTrace recorded = record_trace(make_setting(flutter, {{"tolerance", "1e-10"}, {"to", "1"}}));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  ASSERT_EQ(recorded.result.events.size(), 1U);
-  const Event& event = recorded.result.events[0];
-  EXPECT_EQ(event.kind, EventKind::collision);
-  EXPECT_NEAR(event.p, 0.5, 1e-12);
-  EXPECT_LT(std::abs(event.s - Complex(0.0, std::sqrt(1.5))), 1e-12);
-  EXPECT_EQ(event.modes, (std::vector<int>{0, 1}));
-  // (s1 - s2)^2 / 4 = (sqrt(2 + p^2) - 3/2) / 2 has the slope 1/6.
-  EXPECT_NEAR(std::abs(event.puiseux), std::sqrt(1.0 / 6.0), 1e-10);
-}
-
-TEST(MatrixFamily, ConstraintsReduceIt) {
-  // Two unit masses on springs 1 and 3, tied together: s^2 = -(1 + 3) / 2.
-  const Setting setting = make_setting(
-      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
-      "K = [ [[1, 0], [0, 3]], [[1, 0], [0, 1]] ]\nA = [ [[1, -1]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.n_modes, 1);
-  EXPECT_NEAR(recorded.nodes.front().s(0, 0).imag(), std::sqrt(2.0), tolerance * 10);
-  EXPECT_NEAR(recorded.nodes.back().s(0, 0).imag(), std::sqrt(3.0), tolerance * 10);
-}
-
 TEST(MatrixFamily, ConstraintsThatTurnWithTheParameterTurnTheBasis) {
   // A(p) = [cos p, sin p]: the free direction is {-sin p, cos p}, so s^2 = -(k1 sin^2 p + k2 cos^2 p).
   const Setting setting = make_setting(

@@ -24,20 +24,6 @@ void expect_circle(const BoundaryCurve& curve, double p, double q, double radius
       1e-8);
 }
 
-TEST(BoundaryCompleteness, UnstableIslandIsClosed) {
-  const BoundaryResult result = boundaries_of(circle_scene(0.13, -0.21, 0.4), square_window());
-  ASSERT_EQ(result.curves.size(), 1U);
-  EXPECT_TRUE(result.curves[0].closed());
-  expect_circle(result.curves[0], 0.13, -0.21, 0.4);
-}
-
-TEST(BoundaryCompleteness, StableIslandInAnUnstableRegion) {
-  const BoundaryResult result = boundaries_of(circle_scene(-0.3, 0.4, 0.3, "-"), square_window());
-  ASSERT_EQ(result.curves.size(), 1U);
-  EXPECT_TRUE(result.curves[0].closed());
-  expect_circle(result.curves[0], -0.3, 0.4, 0.3);
-}
-
 /// An island between the lines, whose distance is a third. It is found only by following an extremum (a
 /// walk).
 TEST(BoundaryCompleteness, SmallIslandsBetweenTheLines) {

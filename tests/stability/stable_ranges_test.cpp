@@ -179,15 +179,6 @@ K = [[[1, 0], [0, 1e8]]]
   expect_ranges(traced.ranges, {{stable, 0, 0.3, "start", "flutter"}});
 }
 
-/// s^2 + 0.1 s + cos: a damped pendulum, pushed. Beyond the fold the path continues with the upright
-/// equilibria.
-TEST(StableRanges, EndWhereTheEquilibriumTurnsBack) {
-  const HardCase& c = hard_case("C05_pushed_pendulum");
-  const TracedRanges traced =
-      traced_ranges(make_setting(c.scene + "\n[[drag]]\npoint = \"bob\"\ncoefficient = 0.1\n"));
-  expect_ranges(traced.ranges, {{stable, 0, 1, "start", "fold"}});
-}
-
 TEST(StableRanges, NameTheModeThatEndsThem) {
   // The second oscillator, s = +-2j, loses its damping at p = 1; the first keeps 0.1.
   const TracedRanges traced = traced_family(

@@ -197,17 +197,6 @@ TEST(TraceEvents, KeepTheShiftOfCollisions) {
   EXPECT_NEAR(std::abs(events[0].sensitivity[k]), 0.0, 1e-8);
 }
 
-TEST(TraceEvents, KeepTheShiftOfCrossings) {
-  const Setting setting = make_setting(
-      "[parameters]\np = 0.0\na = 1.0\nb = 1.5\n[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n"
-      "[matrix_family]\nM = [[[1, 0], [0, 1]]]\nK = [[[\"a\", 0], [0, \"b\"]], [[1, 0], [0, 0]]]\n");
-  const auto events = events_of(setting, EventKind::crossing);
-  ASSERT_EQ(events.size(), 1U);
-  EXPECT_NEAR(events[0].p, 0.5, located);
-  EXPECT_NEAR(events[0].shift[setting.parameter("a")], -1.0, 1e-8);
-  EXPECT_NEAR(events[0].shift[setting.parameter("b")], 1.0, 1e-8);
-}
-
 TEST(TraceEvents, VeeringsKeepAnEigenvectorAndTheSlopesOfTheMean) {
   // s^2 = -(eigenvalue of [[a + p, e], [e, b]]): closest at p = b - a, exceptional points at +- 2 e j.
   const Setting setting = make_setting(
