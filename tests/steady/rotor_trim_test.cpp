@@ -153,21 +153,6 @@ TEST(RotorTrim, UnknownsKeepTheOrderOfTheScene) {
   EXPECT_NEAR(std::sin(both.unknowns[1]), 1600.0 / (blades * lift()), 1e-12);
 }
 
-/// A flapping blade on a hub that is held: the rotor has N times the thrust of the blade alone.
-TEST(RotorTrim, PitchIsThatOfOneBladeWithItsShareOfTheThrust) {
-  const std::string alone = parameters + blade("") + "[[weld]]\nfrom = [0, 0, 0]\nto = \"hub\"\n";
-  const Setting one =
-      make_setting(alone + traced("weight", 1000, 3000) + trim("pitch", "force(air, z) = weight / 4"));
-  const Setting all =
-      make_setting(rotor("") + traced("weight", 1000, 3000) + trim("pitch", "thrust(air) = weight"));
-  for (const double weight : {1000.0, 2200.0, 3000.0}) {
-    const Solved of_one = solve(one, "weight", weight), of_all = solve(all, "weight", weight);
-    ASSERT_EQ(of_one.at.status, SteadyStatus::converged) << of_one.at.report.message;
-    ASSERT_EQ(of_all.at.status, SteadyStatus::converged) << of_all.at.report.message;
-    EXPECT_NEAR(of_all.unknowns[0], of_one.unknowns[0], 1e-12);
-  }
-}
-
 /// The angle of a hinge and the moment of its spring are those of every blade.
 TEST(RotorTrim, ConingIsThatOfEveryBlade) {
   for (const char* condition : {"angle(flap) = coning", "moment(spring) = -coning * spring"}) {

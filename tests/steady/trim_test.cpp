@@ -70,16 +70,6 @@ double holding_torque(double angle) {
   return mass * g * arm * std::sin(angle) + stiffness * angle;
 }
 
-TEST(Trim, TorqueHoldsAPendulumAtAnAngle) {
-  const Setting setting =
-      make_setting(pendulum(along("angle", 0.1, 1.2), trim("torque", "angle(hinge) = angle")));
-  for (const double angle : {0.2, 0.7, 1.1}) {
-    const Solved found = solve(setting, "angle", angle);
-    ASSERT_EQ(found.at.status, SteadyStatus::converged) << found.at.report.message;
-    EXPECT_NEAR(found.unknowns[0], holding_torque(angle), 1e-11);
-  }
-}
-
 /// The torque is constant in the motion: the frequency has the stiffness of gravity and spring alone, not
 /// that of a condition that holds the angle.
 TEST(Trim, LociFollowTheTrimmedStateWithTheUnknownsHeld) {
@@ -412,12 +402,6 @@ TEST(Trim, DivergenceWithHeldControlsIsNoFold) {
   }
   EXPECT_EQ(zeros, 1);
   EXPECT_EQ(recorded.nodes.back().p, 2.6);
-}
-
-TEST(Trim, ResumedTraceHasTheSameBits) {
-  const Setting setting =
-      make_setting(pendulum(along("reach", 0.3, 0.9), trim("torque", "position(bob.tip, x) = reach")));
-  EXPECT_EQ(first_resumed_difference(*setting.model, setting.options, 3), "");
 }
 
 TEST(Trim, SingularTrimNamesConditionAndUnknown) {
