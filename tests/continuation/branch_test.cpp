@@ -176,8 +176,8 @@ TEST(BranchPoint, BesideTheStartAsksForAReference) {
   EXPECT_EQ(fails.result.status, TraceStatus::step_too_small);
   EXPECT_NE(fails.result.message.find("give a larger `reference`"), std::string::npos)
       << fails.result.message;
-  const auto passes = record_trace(whirling_pendulum(critical_speed - 1e-3, {{"reference", "0.01"}}));
-  EXPECT_EQ(passes.result.status, TraceStatus::completed) << passes.result.message;
+  const RecordedTrace passes =
+      completed_trace(whirling_pendulum(critical_speed - 1e-3, {{"reference", "0.01"}}));
   expect_pitchfork(passes, critical_speed);
 }
 
@@ -237,8 +237,7 @@ void springs_at(const Vector& x, Vector& force, Matrix& stiffness) {
 TEST(BranchPoint, OfATrussThatGivesWaySideways) {
   const std::vector<double> loads = sideways_loads();
   for (const std::string branch : {"1", "2", "3"}) {
-    const auto trace = record_trace(steep_truss(branch));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    const RecordedTrace trace = completed_trace(steep_truss(branch));
     std::vector<double> found;
     for (const Event& event : trace.result.events) {
       if (event.kind == EventKind::branch_point) found.push_back(event.p);

@@ -15,13 +15,6 @@ namespace {
 using test::make_setting;
 using test::record_trace;
 
-std::vector<Event> events_of(const std::vector<Event>& events, EventKind kind) {
-  std::vector<Event> found;
-  std::copy_if(events.begin(), events.end(), std::back_inserter(found),
-               [kind](const Event& event) { return event.kind == kind; });
-  return found;
-}
-
 std::string two_oscillators(double coupling, const std::string& modes, double to = 3.0) {
   const std::string e = std::to_string(coupling);
   return "[trace]\nparameter = \"p\"\nfrom = 0\nto = " + std::to_string(to) + "\nmodes = " + modes +
@@ -41,11 +34,11 @@ class EnteringModes : public testing::TestWithParam<double> {};
 
 TEST_P(EnteringModes, AModeThatEntersTheBandIsFollowedFromTheStepInWhichItDoes) {
   const double coupling = GetParam();
-  const auto traced = record_trace(make_setting(two_oscillators(coupling, "{ band = [2.5, 6] }", 1.8)));
-  ASSERT_EQ(traced.result.status, TraceStatus::completed);
+  const RecordedTrace traced =
+      completed_trace(make_setting(two_oscillators(coupling, "{ band = [2.5, 6] }", 1.8)));
   EXPECT_EQ(traced.result.n_modes, 1);
   EXPECT_EQ(traced.result.n_columns, 2);
-  const auto entries = events_of(traced.result.events, EventKind::band_edge);
+  const auto entries = events_of(traced.result, EventKind::band_edge);
   ASSERT_EQ(entries.size(), 1u);
   EXPECT_EQ(entries[0].modes, std::vector<int>{1});
   EXPECT_EQ(entries[0].direction, 1);
@@ -57,9 +50,8 @@ TEST_P(EnteringModes, AModeThatEntersTheBandIsFollowedFromTheStepInWhichItDoes) 
 INSTANTIATE_TEST_SUITE_P(Coupling, EnteringModes, testing::Values(0.0, 0.1));
 
 TEST(EnteringModesOnTheRange, LeavingTheBandIsAnEventAndTheModeIsFollowedOn) {
-  const auto traced = record_trace(make_setting(two_oscillators(0.0, "{ band = [3.5, 6] }")));
-  ASSERT_EQ(traced.result.status, TraceStatus::completed);
-  const auto edges = events_of(traced.result.events, EventKind::band_edge);
+  const RecordedTrace traced = completed_trace(make_setting(two_oscillators(0.0, "{ band = [3.5, 6] }")));
+  const auto edges = events_of(traced.result, EventKind::band_edge);
   ASSERT_EQ(edges.size(), 2u);
   EXPECT_NEAR(edges[0].p, 1.5, 1e-9);  // 5 - p falls through 3.5
   EXPECT_EQ(edges[0].direction, -1);
@@ -73,25 +65,23 @@ TEST(EnteringModesOnTheRange, AResumedTraceIsTheSameBitForBit) {
 }
 
 TEST(EnteringModesOnTheRange, AChoiceByCountDoesNotGrow) {
-  const auto traced = record_trace(make_setting(two_oscillators(0.1, "{ count = 1, band = [2.5, 6] }", 1.8)));
-  ASSERT_EQ(traced.result.status, TraceStatus::completed);
+  const RecordedTrace traced =
+      completed_trace(make_setting(two_oscillators(0.1, "{ count = 1, band = [2.5, 6] }", 1.8)));
   EXPECT_EQ(traced.result.n_columns, 1);
 }
 
 TEST(EnteringModesOnTheRange, AModeThatBecomesLightlyDampedIsTaken) {
   // s^2 + 2 (1 - p) s + 1 and s^2 + 0.1 s + 9: the first is damped with the ratio 1 - p.
-  const auto traced = record_trace(make_setting(
+  const RecordedTrace traced = completed_trace(make_setting(
       "[trace]\nparameter = \"p\"\nfrom = 0.2\nto = 0.9\nmodes = { damping_below = 0.5 }\n"
       "[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nC = [ [[2, 0], [0, 0.1]], [[-2, 0], [0, 0]] ]\n"
       "K = [ [[1, 0.01], [0.01, 9]] ]\n"));
-  ASSERT_EQ(traced.result.status, TraceStatus::completed);
   EXPECT_EQ(traced.result.n_modes, 1);
   EXPECT_EQ(traced.result.n_columns, 2);
 }
 
 TEST(EnteringModesOnTheRange, NothingInTheBandAtTheStartTakesTheNearestAndSaysSo) {
-  const auto traced = record_trace(make_setting(two_oscillators(0.1, "{ band = [7, 8] }")));
-  ASSERT_EQ(traced.result.status, TraceStatus::completed);
+  const RecordedTrace traced = completed_trace(make_setting(two_oscillators(0.1, "{ band = [7, 8] }")));
   EXPECT_EQ(traced.result.n_modes, 1);
   ASSERT_FALSE(traced.result.notes.empty());
   EXPECT_NE(traced.result.notes[0].find("Im s between 7 and 8 rad/s"), std::string::npos);

@@ -115,11 +115,7 @@ TEST_P(Traced, HaveTheEventsOfOnePartAsOftenAsThereAreParts) {
       ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
       EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
       EXPECT_TRUE(found.result.notes.empty());
-      std::vector<double> places;
-      for (const Event& event : found.result.events) {
-        if (event.kind == GetParam().kind) places.push_back(event.p);
-      }
-      std::sort(places.begin(), places.end());
+      const std::vector<double> places = places_of(found.result, GetParam().kind);
       ASSERT_EQ(places.size(), GetParam().places.size());
       for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(places[i], GetParam().places[i], 1e-9);
     }
@@ -219,7 +215,7 @@ TEST(EqualParts, AreFollowedAsFarAsAskedFor) {
 /// A parameter that changes one of two equal oscillators moves the event of that one only: the damping ratio
 /// p / (2 sqrt(k)) is 0.1 at p = 0.2 sqrt(k).
 TEST(EqualParts, HaveSensitivitiesOfTheirOwn) {
-  const RecordedTrace found = record_trace(make_setting(R"(
+  const RecordedTrace found = completed_trace(make_setting(R"(
 parameters = { k1 = 4.0, k2 = 4.0 }
 trace = { parameter = "p", from = 0.1, to = 1, tolerance = 1e-9 }
 events = { damping_ratio = 0.1 }
@@ -228,7 +224,6 @@ M = [[[1, 0], [0, 1]]]
 C = [[[0, 0], [0, 0]], [[1, 0], [0, 1]]]
 K = [[["k1", 0], [0, "k2"]]]
 )"));
-  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
   ASSERT_EQ(found.result.events.size(), 2U);
   Vector moved = Vector::Zero(2);
   for (const Event& event : found.result.events) {
@@ -243,11 +238,10 @@ K = [[["k1", 0], [0, "k2"]]]
 
 /// Two harmonics of a ring pass each other, and all of them meet where the blades are uncoupled.
 TEST(PartCrossings, OfAllPartsAtOncePlaceAreOneEvent) {
-  const RecordedTrace trace = record_trace(make_setting(
+  const RecordedTrace trace = completed_trace(make_setting(
       "[trace]\nparameter = \"p\"\nfrom = -0.2\nto = 0.4\n[matrix_family]\n"
       "M = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]\nC = [[[0.02, 0, 0], [0, 0.02, 0], [0, 0, 0.02]]]\n"
       "K = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1, -1, 0], [-1, 2, -1], [0, -1, 1]]]\n"));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
   ASSERT_EQ(trace.result.events.size(), 1U);
   const Event& crossing = trace.result.events.front();
   EXPECT_EQ(crossing.kind, EventKind::crossing);
@@ -298,7 +292,7 @@ TEST(EqualPartsOfAScene, AllFourRealEigenvaluesAreModes) {
 /// A spherical pendulum with drag: two equal parts within the tangent space of the rod. Its damping ratio is
 /// 0.1 at d* = 0.2 m sqrt(g/L); the length changes the constraint, the equilibrium and the tangent space.
 TEST(EqualPartsOfAScene, MoveWithParametersThatMoveTheirTangentSpace) {
-  const RecordedTrace trace = record_trace(make_setting(R"(
+  const RecordedTrace trace = completed_trace(make_setting(R"(
 parameters = { drag = 0.1, length = 2.0, mass = 3.0, g = 9.0 }
 trace = { parameter = "drag", from = 0.1, to = 5, tolerance = 1e-9 }
 events = { damping_ratio = 0.1 }
@@ -307,7 +301,6 @@ point = [{ name = "bob", mass = "mass", position = [0, 0, "-length"] }]
 rod = [{ from = [0, 0, 0], to = "bob", length = "length" }]
 drag = [{ point = "bob", coefficient = "drag" }]
 )"));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
   ASSERT_EQ(trace.result.events.size(), 2U);
   const double place = 0.2 * 3.0 * std::sqrt(9.0 / 2.0);
   for (const Event& event : trace.result.events) {

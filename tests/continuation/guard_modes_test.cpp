@@ -56,13 +56,12 @@ TEST(GuardModes, AreFoundBeforeStepsShrinkTowardsACollision) {
   for (const std::string tolerance : {"1e-6", "1e-8", "1e-10"}) {
     SCOPED_TRACE(tolerance);
     const RecordedTrace trace =
-        record_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\n"
-                                  "modes = 1\n[matrix_family]\n"
-                                  "M = [[[1, 0], [0, 1]]]\n"
-                                  "C = [[[2, 0], [0, 0.5]]]\n"
-                                  "K = [[[0.2, 0.01], [0, 400]], [[0.8, 0], [0, 1]]]\n",
-                                  {{"tolerance", tolerance}}));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+        completed_trace(make_setting("[trace]\nparameter = \"p\"\nfrom = 0\nto = 2\n"
+                                     "modes = 1\n[matrix_family]\n"
+                                     "M = [[[1, 0], [0, 1]]]\n"
+                                     "C = [[[2, 0], [0, 0.5]]]\n"
+                                     "K = [[[0.2, 0.01], [0, 400]], [[0.8, 0], [0, 1]]]\n",
+                                     {{"tolerance", tolerance}}));
     EXPECT_LT(trace.result.nodes, 40);
     ASSERT_EQ(trace.result.events.size(), 1U);
     EXPECT_EQ(trace.result.events[0].kind, EventKind::collision);

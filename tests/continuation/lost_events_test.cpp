@@ -10,13 +10,6 @@
 namespace eigentrail::test::lost_events_test {
 namespace {
 
-const Event* find(const RecordedTrace& trace, EventKind kind) {
-  const auto& events = trace.result.events;
-  const auto found =
-      std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.kind == kind; });
-  return found == events.end() ? nullptr : &*found;
-}
-
 Setting family(const std::string& from, const std::string& to, const std::string& C, const std::string& K,
                const OptionTexts& overrides = {}) {
   return make_setting("[trace]\nparameter = \"p\"\nfrom = " + from + "\nto = " + to +
@@ -26,17 +19,14 @@ Setting family(const std::string& from, const std::string& to, const std::string
 
 // s^2 + (2 + p) s + 1: its pair meets at p = 0, s = -1. s^2 + p s + 4: flutter at p = 0, s = 2j.
 TEST(LostEvents, FlutterBesideACollisionOfOtherModes) {
-  const RecordedTrace trace =
-      record_trace(family("-0.5", "0.7", "[ [[2, 0], [0, 0]], [[1, 0], [0, 1]] ]", "[ [[1, 0], [0, 4]] ]"));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-  const Event* flutter = find(trace, EventKind::flutter);
-  ASSERT_NE(flutter, nullptr);
-  EXPECT_NEAR(flutter->p, 0.0, 1e-12);
-  EXPECT_NEAR(flutter->s.imag(), 2.0, 1e-12);
-  EXPECT_EQ(flutter->direction, -1);
-  const Event* collision = find(trace, EventKind::collision);
-  ASSERT_NE(collision, nullptr);
-  EXPECT_NEAR(collision->s.real(), -1.0, 1e-8);
+  const RecordedTrace trace = completed_trace(
+      family("-0.5", "0.7", "[ [[2, 0], [0, 0]], [[1, 0], [0, 1]] ]", "[ [[1, 0], [0, 4]] ]"));
+  const Event flutter = only_event(trace.result, EventKind::flutter);
+  EXPECT_NEAR(flutter.p, 0.0, 1e-12);
+  EXPECT_NEAR(flutter.s.imag(), 2.0, 1e-12);
+  EXPECT_EQ(flutter.direction, -1);
+  const Event collision = only_event(trace.result, EventKind::collision);
+  EXPECT_NEAR(collision.s.real(), -1.0, 1e-8);
 }
 
 // s^2 + 2 d s + 1 - p: the pair meets at p = 1 - d^2, and one of the two real roots is zero at p = 1.
@@ -48,16 +38,13 @@ TEST_P(DivergenceBehindCollision, IsAnEventOfItsOwn) {
   C << "[ [[" << 2.0 * d << ", 0], [0, 0.1]] ]";
   for (const bool upward : {true, false}) {
     SCOPED_TRACE(upward ? "upward" : "downward");
-    const RecordedTrace trace = record_trace(family(upward ? "0" : "1.5", upward ? "1.5" : "0", C.str(),
-                                                    "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-    const Event* collision = find(trace, EventKind::collision);
-    const Event* divergence = find(trace, EventKind::divergence);
-    ASSERT_NE(collision, nullptr);
-    ASSERT_NE(divergence, nullptr);
-    EXPECT_NEAR(collision->p, 1.0 - d * d, 1e-10);
-    EXPECT_NEAR(divergence->p, 1.0, 1e-10);
-    EXPECT_EQ(divergence->direction, 1);
+    const RecordedTrace trace = completed_trace(family(upward ? "0" : "1.5", upward ? "1.5" : "0", C.str(),
+                                                       "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
+    const Event collision = only_event(trace.result, EventKind::collision);
+    const Event divergence = only_event(trace.result, EventKind::divergence);
+    EXPECT_NEAR(collision.p, 1.0 - d * d, 1e-10);
+    EXPECT_NEAR(divergence.p, 1.0, 1e-10);
+    EXPECT_EQ(divergence.direction, 1);
   }
 }
 
@@ -72,21 +59,19 @@ INSTANTIATE_TEST_SUITE_P(Damping, DivergenceBehindCollision,
 TEST(LostEvents, DivergenceOfAModeWhoseParentHasJustBecomeUnstable) {
   const RecordedTrace trace = record_trace(family("0", "1.5", "[ [[1.8, 0], [0, 0.1]], [[-2, 0], [0, 0]] ]",
                                                   "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
-  const Event* flutter = find(trace, EventKind::flutter);
-  const Event* divergence = find(trace, EventKind::divergence);
-  ASSERT_NE(flutter, nullptr);
-  ASSERT_NE(divergence, nullptr);
-  EXPECT_NEAR(flutter->p, 0.9, 1e-12);
-  EXPECT_NEAR(divergence->p, 1.0, 1e-12);
-  EXPECT_EQ(divergence->direction, -1);
+  const Event flutter = only_event(trace.result, EventKind::flutter);
+  const Event divergence = only_event(trace.result, EventKind::divergence);
+  EXPECT_NEAR(flutter.p, 0.9, 1e-12);
+  EXPECT_NEAR(divergence.p, 1.0, 1e-12);
+  EXPECT_EQ(divergence.direction, -1);
 }
 
 // Without damping the pair meets at zero and leaves the imaginary axis there. This is one event, not two.
 TEST(LostEvents, CollisionAtZeroIsNoDivergenceToo) {
   const RecordedTrace trace =
       record_trace(family("0", "1.5", "[ [[0, 0], [0, 0]] ]", "[ [[1, 0], [0, 9]], [[-1, 0], [0, 0]] ]"));
-  ASSERT_NE(find(trace, EventKind::collision), nullptr);
-  EXPECT_EQ(find(trace, EventKind::divergence), nullptr);
+  EXPECT_EQ(events_of(trace.result, EventKind::collision).size(), 1U);
+  EXPECT_TRUE(events_of(trace.result, EventKind::divergence).empty());
 }
 
 // Modes 1 and 2 meet at p = 1/2, where a step is cut. There, mode 3 passes a bump a thousandth as wide as the
@@ -96,8 +81,7 @@ TEST(LandedSteps, AreJudgedAnew) {
       "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\ntolerance = 1e-6\n[matrix_family]\n"
       "M = [ [[1, 0, 0], [0, 1, 0], [0, 0, 1]] ]\n"
       "K = [ [[1, \"p\", 0], [\"-p\", 2, 0], [0, 0, \"9 + exp(-((p - 0.5) / 1e-3)^2)\"]] ]\n");
-  const RecordedTrace trace = record_trace(setting);
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  const RecordedTrace trace = completed_trace(setting);
   for (int i = -40; i <= 40; ++i) {
     const double p = 0.5 + 1e-4 * i;
     const double expected = std::sqrt(9.0 + std::exp(-std::pow((p - 0.5) / 1e-3, 2)));
@@ -125,17 +109,11 @@ TEST(LostEvents, NoneWhereTheToleranceIsBelowRounding) {
   for (const bool upward : {true, false}) {
     SCOPED_TRACE(upward ? "upward" : "downward");
     const RecordedTrace trace =
-        record_trace(family(upward ? "0" : "1", upward ? "1" : "0", "[ [[0.066, 0.02], [-0.02, 0.3]] ]",
-                            "[ [[\"2.5 - 3.5*exp(-1e6*(p-0.3137)^2)\", 3], [3, 17]] ]",
-                            {{"tolerance", "1e-11"}, {"max_nodes", "1000"}}));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-    const auto& events = trace.result.events;
-    EXPECT_EQ(std::count_if(events.begin(), events.end(),
-                            [](const Event& e) { return e.kind == EventKind::collision; }),
-              2);
-    EXPECT_EQ(std::count_if(events.begin(), events.end(),
-                            [](const Event& e) { return e.kind == EventKind::divergence; }),
-              2);
+        completed_trace(family(upward ? "0" : "1", upward ? "1" : "0", "[ [[0.066, 0.02], [-0.02, 0.3]] ]",
+                               "[ [[\"2.5 - 3.5*exp(-1e6*(p-0.3137)^2)\", 3], [3, 17]] ]",
+                               {{"tolerance", "1e-11"}, {"max_nodes", "1000"}}));
+    EXPECT_EQ(events_of(trace.result, EventKind::collision).size(), 2U);
+    EXPECT_EQ(events_of(trace.result, EventKind::divergence).size(), 2U);
   }
 }
 

@@ -98,8 +98,7 @@ TEST(ModeRoute, DampedPointsAreLeftToTheStateSpace) {
 }
 
 TEST(ModeRoute, TraceThroughBucklingEqualsTheClosedForm) {
-  const RecordedTrace recorded = record_trace(make_setting(buckling()));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(make_setting(buckling()));
   for (const double p : {0.05, 0.5, 0.62, 1.0, 1.7, 1.99, 2.2, 2.9}) {
     std::vector<Complex> expected, found;
     for (const double stiffness : {2.0 - std::sqrt(2.0), 2.0, 2.0 + std::sqrt(2.0)}) {

@@ -35,9 +35,8 @@ Setting oscillators(const std::vector<Oscillator>& all, double from, double to,
                       options);
 }
 
-std::vector<Event> events_of(const Setting& setting) {
-  const RecordedTrace trace = record_trace(setting);
-  EXPECT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+std::vector<Event> crossings_of(const Setting& setting) {
+  const RecordedTrace trace = completed_trace(setting);
   for (const Event& event : trace.result.events) EXPECT_EQ(event.kind, EventKind::crossing);
   return trace.result.events;
 }
@@ -46,7 +45,7 @@ TEST(CrossingsOfParts, HavePlaceModesAndEigenvalueInBothDirections) {
   const std::vector<Oscillator> all{{0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}, {0.0, 5.0, 0.5}};
   for (const bool backward : {false, true}) {
     const Setting setting = backward ? oscillators(all, 0.45, 0.05) : oscillators(all, 0.05, 0.45);
-    const std::vector<Event> found = events_of(setting);
+    const std::vector<Event> found = crossings_of(setting);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].p, 0.3, 1e-12);
     EXPECT_LT(std::abs(found[0].s - 2.3 * j), 1e-12);
@@ -60,14 +59,15 @@ TEST(CrossingsOfParts, HavePlaceModesAndEigenvalueInBothDirections) {
 TEST(CrossingsOfParts, AtEndsOfStepsAreFoundOnceAndOnlyOnTheRange) {
   for (const double beside : {0.0, 1e-6, -1e-6}) {
     const std::string length = exact_text(0.3 + beside);
-    EXPECT_EQ(events_of(oscillators({{0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}}, 0.0, 0.9,
-                                    {{"first_step", length}, {"max_step", length}}))
+    EXPECT_EQ(crossings_of(oscillators({{0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}}, 0.0, 0.9,
+                                       {{"first_step", length}, {"max_step", length}}))
                   .size(),
               1U)
         << beside;
     // The range ends at 1, and the crossing lies half as far beside it.
     const std::size_t expected = beside > 0.0 ? 0 : 1;
-    EXPECT_EQ(events_of(oscillators({{0.0, 2.0, 1.0}, {0.0, 4.0 + beside, -1.0}}, 0.8, 1.0)).size(), expected)
+    EXPECT_EQ(crossings_of(oscillators({{0.0, 2.0, 1.0}, {0.0, 4.0 + beside, -1.0}}, 0.8, 1.0)).size(),
+              expected)
         << beside;
   }
 }
@@ -79,7 +79,7 @@ TEST(CrossingsOfParts, OfEqualPartsAreOneWithAThird) {
                     {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0},
                     {2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0}};
   for (const Matrix& coordinates : {Matrix(), turn}) {
-    const std::vector<Event> found = events_of(
+    const std::vector<Event> found = crossings_of(
         oscillators({{0.0, 2.0, 1.0}, {0.0, 2.0, 1.0}, {0.0, 2.6, -1.0}}, -1.0, 1.0, {}, coordinates));
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].p, 0.3, 1e-12);
@@ -90,8 +90,8 @@ TEST(CrossingsOfParts, OfEqualPartsAreOneWithAThird) {
 /// Im s agrees at one place, Re s does not: they pass beside each other.
 TEST(CrossingsOfParts, NeedBothComponentsToAgree) {
   for (const double c : {0.2, 1e-3})
-    EXPECT_TRUE(events_of(oscillators({{c, 2.0, 1.0}, {0.0, 2.6, -1.0}}, 0.0, 0.5)).empty()) << c;
-  const std::vector<Event> found = events_of(oscillators({{0.2, 2.0, 1.0}, {0.2, 2.6, -1.0}}, 0.0, 0.5));
+    EXPECT_TRUE(crossings_of(oscillators({{c, 2.0, 1.0}, {0.0, 2.6, -1.0}}, 0.0, 0.5)).empty()) << c;
+  const std::vector<Event> found = crossings_of(oscillators({{0.2, 2.0, 1.0}, {0.2, 2.6, -1.0}}, 0.0, 0.5));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].p, 0.3, 1e-12);
   EXPECT_NEAR(found[0].s.real(), -0.1, 1e-12);
@@ -103,7 +103,7 @@ TEST(CrossingsOfParts, OfRealModesToo) {
   const double a = 3.0 - std::sqrt(9.0 - 2.25);
   const double p = std::sqrt(4.0 * a - a * a) - 1.0;
   const std::vector<Event> found =
-      events_of(oscillators({{4.0, 1.0, 1.0}, {6.0, 1.5, 0.0}}, p - 0.1, p + 0.15));
+      crossings_of(oscillators({{4.0, 1.0, 1.0}, {6.0, 1.5, 0.0}}, p - 0.1, p + 0.15));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].p, p, 1e-11);
   EXPECT_LT(std::abs(found[0].s + a), 1e-11);
@@ -115,7 +115,7 @@ TEST(CrossingsOfParts, KnowHowTheirPlaceMoves) {
       "[parameters]\np = 5.0\nq = 6.0\nm = 2.0\nn = 3.0\n[trace]\nparameter = \"p\"\nfrom = 3\n"
       "to = 5\n[matrix_family]\nM = [[[\"m\", 0], [0, \"n\"]]]\n"
       "K = [[[0, 0], [0, \"q\"]], [[1, 0], [0, 0]]]\n");
-  const std::vector<Event> found = events_of(setting);
+  const std::vector<Event> found = crossings_of(setting);
   ASSERT_EQ(found.size(), 1U);
   const Event& event = found[0];
   EXPECT_NEAR(event.p, 4.0, 1e-10);

@@ -41,12 +41,6 @@ std::string zero(int n) {
   return matrix(n, [](int, int) { return 0; });
 }
 
-int count(const RecordedTrace& trace, EventKind kind) {
-  const auto& events = trace.result.events;
-  return static_cast<int>(
-      std::count_if(events.begin(), events.end(), [&](const Event& e) { return e.kind == kind; }));
-}
-
 /// x' = A(p) x with A = tridiag(1 + p, -2, 1 - p), the difference equations of flow with diffusion: s = -2 +
 /// 2 sqrt(1 - p^2) cos(k pi / (n + 1)). All n are real below p = 1, meet there in one exceptional point with
 /// one eigenvector, and are complex above. Long before it their vectors are parallel to rounding, and the
@@ -99,9 +93,7 @@ TEST_P(FlowWithDiffusion, IsFollowedThroughItsExceptionalPointWhereAllItsModesCo
       EXPECT_LT(nearest, 2.0 * GetParam().tolerance * std::abs(s)) << p << " " << s;
     }
   }
-  ASSERT_EQ(count(trace, EventKind::collision), 1);
-  const auto& event = *std::find_if(trace.result.events.begin(), trace.result.events.end(),
-                                    [](const Event& e) { return e.kind == EventKind::collision; });
+  const Event event = only_event(trace.result, EventKind::collision);
   EXPECT_NEAR(event.p, 1.0, 1e-10);
   EXPECT_LT(std::abs(event.s + 2.0), 1e-10);
   EXPECT_EQ(event.modes.size(), static_cast<std::size_t>(n));
@@ -129,9 +121,8 @@ INSTANTIATE_TEST_SUITE_P(All, FlowWithDiffusion, testing::ValuesIn(flows()), [](
 /// by its root, into a pair at one point and into two at the next.
 TEST(SensitiveSpectra, TwoThatAreOneEverywhereStayTwoRealModes) {
   for (const bool forward : {true, false}) {
-    const RecordedTrace trace = record_trace(family(1, "[[1]]", "[[4]], [[4]]", "[[4]], [[8]], [[4]]",
-                                                    forward ? 0.0 : 1.0, forward ? 1.0 : 0.0, 1e-9));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    const RecordedTrace trace = completed_trace(family(1, "[[1]]", "[[4]], [[4]]", "[[4]], [[8]], [[4]]",
+                                                       forward ? 0.0 : 1.0, forward ? 1.0 : 0.0, 1e-9));
     EXPECT_EQ(trace.result.certified_steps, trace.result.mode_steps);
     EXPECT_TRUE(trace.result.events.empty());
     for (const std::string& note : trace.result.notes) ADD_FAILURE() << note;
@@ -148,11 +139,8 @@ TEST(SensitiveSpectra, EightEigenvaluesMeetAndPart) {
   constexpr int n = 8;
   const std::string K0 = matrix(n, [](int i, int k) { return i == k ? 4 : k == i + 1 ? 1 : 0; });
   const std::string K1 = matrix(n, [](int i, int k) { return i == n - 1 && k == 0 ? 1 : 0; });
-  const RecordedTrace trace = record_trace(family(n, identity(n), "", K0 + ", " + K1, -0.5, 0.7, 1e-9));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-  ASSERT_EQ(count(trace, EventKind::collision), 1);
-  const auto& event = *std::find_if(trace.result.events.begin(), trace.result.events.end(),
-                                    [](const Event& e) { return e.kind == EventKind::collision; });
+  const RecordedTrace trace = completed_trace(family(n, identity(n), "", K0 + ", " + K1, -0.5, 0.7, 1e-9));
+  const Event event = only_event(trace.result, EventKind::collision);
   EXPECT_NEAR(event.p, 0.0, 1e-12);
   EXPECT_EQ(event.modes.size(), 8U);
   EXPECT_NEAR(std::abs(event.puiseux), 0.25, 1e-6);
@@ -164,23 +152,20 @@ TEST(SensitiveSpectra, EightEigenvaluesMeetAndPart) {
 
 /// p s^2 + s + 1: one eigenvalue comes from infinity at p = 0, and meets the other at p = 1/4.
 TEST(SensitiveSpectra, AnEigenvalueFromInfinityIsTakenUp) {
-  const RecordedTrace trace = record_trace(family(1, "[[0]], [[1]]", "[[1]]", "[[1]]", 0.0, 1.0, 1e-9));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-  ASSERT_EQ(count(trace, EventKind::collision), 1);
-  EXPECT_NEAR(trace.result.events[0].p, 0.25, 1e-12);
+  const RecordedTrace trace = completed_trace(family(1, "[[0]], [[1]]", "[[1]]", "[[1]]", 0.0, 1.0, 1e-9));
+  EXPECT_NEAR(only_event(trace.result, EventKind::collision).p, 0.25, 1e-12);
   EXPECT_NEAR(std::abs(trace.eigenvalues_at(0.2)[0] - (-1.0 + std::sqrt(0.2)) / 0.4), 0.0, 1e-8);
   EXPECT_NEAR(std::abs(trace.eigenvalues_at(0.5)[0] - Complex(-1.0, 1.0)), 0.0, 1e-8);
 }
 
 /// A mass on drag, free in a plane: two zeros, and -drag twice, for every drag.
 TEST(SensitiveSpectra, ZerosOfAFreeParticleStayZero) {
-  const RecordedTrace trace =
-      record_trace(make_setting("[parameters]\ndrag = 1.0\n[trace]\nparameter = \"drag\"\nfrom = 1.0\nto = "
-                                "3.0\n[[point]]\nname = \"a\"\n"
-                                "mass = 1\nposition = [0, 0, 0]\n[[fixed]]\npoint = \"a\"\ncoordinate = "
-                                "\"z\"\n[[drag]]\npoint = \"a\"\n"
-                                "coefficient = \"drag\"\n"));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  const RecordedTrace trace = completed_trace(
+      make_setting("[parameters]\ndrag = 1.0\n[trace]\nparameter = \"drag\"\nfrom = 1.0\nto = "
+                   "3.0\n[[point]]\nname = \"a\"\n"
+                   "mass = 1\nposition = [0, 0, 0]\n[[fixed]]\npoint = \"a\"\ncoordinate = "
+                   "\"z\"\n[[drag]]\npoint = \"a\"\n"
+                   "coefficient = \"drag\"\n"));
   EXPECT_EQ(trace.result.certified_steps, trace.result.mode_steps);
   const ComplexVector s = trace.eigenvalues_at(2.0);
   EXPECT_EQ(std::count(s.begin(), s.end(), Complex(0.0)), 2);
@@ -192,14 +177,9 @@ TEST(SensitiveSpectra, ZerosOfAFreeParticleStayZero) {
 TEST(SensitiveSpectra, ANarrowBumpIsNotSteppedOver) {
   constexpr double c = 0.3137;
   constexpr double w = 1e-3;
-  const RecordedTrace trace = record_trace(
+  const RecordedTrace trace = completed_trace(
       family(1, "[[1]]", "[[0.1]]", "[[\"1 - 2*exp(-((p - 0.3137)/1e-3)^2)\"]]", 0.0, 1.0, 1e-8));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-  std::vector<double> places;
-  for (const Event& event : trace.result.events) {
-    if (event.kind == EventKind::divergence) places.push_back(event.p);
-  }
-  std::sort(places.begin(), places.end());
+  const std::vector<double> places = places_of(trace.result, EventKind::divergence);
   ASSERT_EQ(places.size(), 2U);
   const double half = w * std::sqrt(std::log(2.0));
   EXPECT_NEAR(places[0], c - half, 1e-10);
@@ -209,19 +189,14 @@ TEST(SensitiveSpectra, ANarrowBumpIsNotSteppedOver) {
 /// The same as a mass on a spring with a damper: where the spring loses its stiffness, every position is an
 /// equilibrium.
 TEST(SensitiveSpectra, ANarrowBumpOfASpringIsNotSteppedOver) {
-  const RecordedTrace trace = record_trace(make_setting(
+  const RecordedTrace trace = completed_trace(make_setting(
       "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\ntolerance = 1e-8\n[parameters]\np = 0.0\n"
       "[[point]]\nname = \"a\"\nmass = 1\nposition = [0, 0, 0]\n"
       "[[fixed]]\npoint = \"a\"\ncoordinate = \"y\"\n[[fixed]]\npoint = \"a\"\ncoordinate = \"z\"\n"
       "[[spring]]\nfrom = [-1, 0, 0]\nto = \"a\"\nfree_length = 1\n"
       "stiffness = \"1 - 2*exp(-((p - 0.3137)/1e-3)^2)\"\n"
       "[[damper]]\nfrom = [-1, 0, 0]\nto = \"a\"\ncoefficient = 0.1\n"));
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-  std::vector<double> places;
-  for (const Event& event : trace.result.events) {
-    if (event.kind == EventKind::branch_point) places.push_back(event.p);
-  }
-  std::sort(places.begin(), places.end());
+  const std::vector<double> places = places_of(trace.result, EventKind::branch_point);
   ASSERT_EQ(places.size(), 2U);
   const double half = 1e-3 * std::sqrt(std::log(2.0));
   for (const std::string& note : trace.result.notes)
@@ -266,9 +241,8 @@ TEST(SensitiveSpectra, ForwardAndBackwardWhirlOfManyModesMeetAtRest) {
   });
   for (const double tolerance : {1e-6, 1e-10}) {
     SCOPED_TRACE(tolerance);
-    const RecordedTrace trace = record_trace(
+    const RecordedTrace trace = completed_trace(
         family(2 * n, identity(2 * n), zero(2 * n) + ", " + G, K + ", " + zero(2 * n), 1.0, 0.0, tolerance));
-    ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
     EXPECT_LT(trace.result.nodes, 25);
     for (const std::string& note : trace.result.notes) ADD_FAILURE() << note;
     ComplexVector at_rest = trace.eigenvalues_at(0.0);

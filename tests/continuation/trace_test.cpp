@@ -57,8 +57,7 @@ TEST(Trace, DerivativesAreRefinedBesideAVeering) {
   const Setting setting = make_setting(
       "[trace]\nparameter = \"p\"\nfrom = -0.73\nto = 1\ntolerance = 1e-3\norder = 4\n"
       "[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nK = [ [[4, 0.02], [0.02, 4]], [[1, 0], [0, -1]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   for (std::size_t i = 0; i < recorded.nodes.size(); ++i) {
     const PathNode& node = recorded.nodes[i];
     const double root = std::hypot(node.p, 0.02);
@@ -74,8 +73,7 @@ TEST(Trace, OverdampedRootsOfOneFreedomAreTwoModes) {
   const Setting setting = make_setting(
       "[trace]\nparameter = \"p\"\nfrom = 3\nto = 8\n[matrix_family]\nM = [ [[1]] ]\nC = [ [[0]], [[1]] ]\nK "
       "= [ [[1]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   ASSERT_EQ(recorded.result.n_modes, 2);
   for (int i = 0; i <= 20; ++i) {
     const double p = 3.0 + i / 4.0;
@@ -93,8 +91,7 @@ TEST(Trace, StartsAtAnExceptionalPoint) {
   const Setting setting = make_setting(
       "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
       "K = [ [[1, 0.5], [-0.5, 2]], [[1, 0], [0, 0]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   ASSERT_EQ(recorded.result.n_columns, 2);
   for (int i = 1; i <= 40; ++i) {
     const double p = i / 40.0;
@@ -138,8 +135,7 @@ TEST_P(PassingModes, KeepTheirIdentityAtEveryTolerance) {
       "[trace]\nparameter = \"p\"\nfrom = -0.5\nto = 0.6\ntolerance = " + tolerance +
       "\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\nC = [ [[0.01, 0], [0, 0.02]] ]\nK = [ [[1, " + k.str() +
       "], [" + k.str() + ", 1]], [[1, 0], [0, -1]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   double worst = 0.0;
   for (int i = 0; i <= 100; ++i) {
     const double p = std::min(-0.5 + 1.1 * i / 100.0, 0.6);
@@ -180,16 +176,13 @@ TEST(Trace, RigidBodyModeAloneCanBeFollowed) {
       "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\nmodes = 1\n[matrix_family]\nM = [ [[1]], [[1]] ]\nC = [ "
       "[[1]] ]\n"
       "K = [ [[0]] ]\n");
-  const RecordedTrace recorded = record_trace(setting);
-  EXPECT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
 }
 
 /// There is a point on it, so that the eigenvalue, which varies like the fourth root of 1 - p, is known to
 /// the rounding of p.
 TEST(Trace, HasAPointOnAFold) {
-  const RecordedTrace trace = record_trace(pushed_pendulum({}, {{"tolerance", "1e-9"}}));
-
-  ASSERT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+  const RecordedTrace trace = completed_trace(pushed_pendulum({}, {{"tolerance", "1e-9"}}));
   ASSERT_EQ(trace.result.events.size(), 1U);
   EXPECT_EQ(trace.result.events[0].kind, EventKind::fold);
   EXPECT_NEAR(trace.result.events[0].p, 1.0, 1e-15);

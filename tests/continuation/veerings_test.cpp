@@ -105,8 +105,7 @@ TEST(FindVeerings, OnBothSidesOfTheAxisAreTwoUnlessTheyAreMirrorImages) {
           << "C = [[[" << c << ", 0], [0, 0]]]\nK = [[[1, " << e << "], [" << e
           << ", 1]], [[1, 0], [0, -1]]]\n";
     std::vector<double> half_widths;
-    for (const Event& event : record_trace(make_setting(scene.str())).result.events) {
-      if (event.kind != EventKind::veering) continue;
+    for (const Event& event : events_of(record_trace(make_setting(scene.str())).result, EventKind::veering)) {
       half_widths.push_back(event.half_width);
       EXPECT_NEAR(event.p, 0.0, 1e-9);
     }
@@ -126,14 +125,13 @@ TEST(FindVeerings, ThatTheSeriesDoNotTellAreNotListed) {
     scene << "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [[[1, 0], [0, 1]]]\n"
           << "K = [[[\"4 + exp(-625*p^2) - 0.5\", " << c << "], [" << c << ", \"4.5 - exp(-625*p^2)\"]]]\n";
     const Complex place = w * std::sqrt(-std::log(Complex(0.5, c)));
-    int listed = 0;
-    for (const Event& event : record_trace(make_setting(scene.str())).result.events) {
-      if (event.kind != EventKind::veering) continue;
-      ++listed;
+    const std::vector<Event> listed =
+        events_of(record_trace(make_setting(scene.str())).result, EventKind::veering);
+    EXPECT_EQ(listed.size(), are_told ? 2U : 0U);
+    for (const Event& event : listed) {
       EXPECT_NEAR(std::abs(event.p), place.real(), 2e-7);
       EXPECT_NEAR(event.half_width, std::abs(place.imag()), 2e-7);
     }
-    EXPECT_EQ(listed, are_told ? 2 : 0);
   }
 }
 
@@ -142,14 +140,10 @@ TEST(FindVeerings, IsLeftOutWhereTheOptionsSaySo) {
   Setting setting = make_setting(
       "[trace]\nparameter = \"p\"\nfrom = -1\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
       "K = [ [[4, 0.02], [0.02, 4]], [[1, 0], [0, -1]] ]\n");
-  const auto veerings = [&] {
-    const std::vector<Event> events = record_trace(setting).result.events;
-    return std::count_if(events.begin(), events.end(),
-                         [](const Event& event) { return event.kind == EventKind::veering; });
-  };
-  EXPECT_EQ(veerings(), 1);
+  const auto veerings = [&] { return events_of(record_trace(setting).result, EventKind::veering).size(); };
+  EXPECT_EQ(veerings(), 1U);
   setting.options.events.veerings = false;
-  EXPECT_EQ(veerings(), 0);
+  EXPECT_EQ(veerings(), 0U);
 }
 
 }  // namespace

@@ -117,15 +117,6 @@ void expect_eigenvalues(const RecordedTrace& found, const Shaft& shaft, double f
   }
 }
 
-std::vector<double> places_of(const RecordedTrace& found, EventKind kind) {
-  std::vector<double> places;
-  for (const Event& event : found.result.events) {
-    if (event.kind == kind) places.push_back(event.p);
-  }
-  std::sort(places.begin(), places.end());
-  return places;
-}
-
 /// A chain of equal masses on springs, w_j'' + (2 w_j - w_{j-1} - w_{j+1}), with the gyroscopic coupling g p:
 /// its modes have k_j = 2 - 2 cos(j pi / (m + 1)), and s = i (+-sqrt(a^2 + k_j) + a) with a = g p / 2.
 struct GyroscopicChain {
@@ -163,11 +154,10 @@ TEST(WhirlParts, GyroscopicChainHasTheEigenvaluesAndCrossingsOfTheClosedForm) {
       const double from = backward ? 1.0 : 0.0, to = backward ? 0.0 : 1.0;
       const Setting setting = setting_of(chain.shaft(), from, to, "1e-9", coordinates);
       EXPECT_TRUE(has_complex_parts(setting));
-      const RecordedTrace found = record_trace(setting);
-      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      const RecordedTrace found = completed_trace(setting);
       EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
       EXPECT_TRUE(found.result.notes.empty());
-      const std::vector<double> places = places_of(found, EventKind::crossing);
+      const std::vector<double> places = places_of(found.result, EventKind::crossing);
       const std::vector<double> expected = chain.crossings(1.0);
       ASSERT_EQ(places.size(), expected.size());
       for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(places[i], expected[i], 1e-9);
@@ -235,11 +225,10 @@ TEST(WhirlParts, ManyCrossingsOfAnUndampedShaftAreCertified) {
   for (const bool backward : {false, true}) {
     for (const std::string tolerance : {"1e-6", "1e-10"}) {
       const double from = backward ? 1.0 : 0.0;
-      const RecordedTrace found = record_trace(setting_of(shaft, from, 1.0 - from, tolerance));
-      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      const RecordedTrace found = completed_trace(setting_of(shaft, from, 1.0 - from, tolerance));
       EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
       EXPECT_TRUE(found.result.notes.empty());
-      EXPECT_EQ(places_of(found, EventKind::crossing).size(), expected);
+      EXPECT_EQ(places_of(found.result, EventKind::crossing).size(), expected);
       expect_eigenvalues(found, shaft, from, 1.0 - from, std::stod(tolerance));
     }
   }
@@ -252,15 +241,14 @@ TEST(WhirlParts, DampedAndCirculatoryShaftsInAnyCoordinates) {
       const Shaft shaft = unequal_chain(6, 0.02, circulatory);
       const Setting setting = setting_of(shaft, 0.0, 1.0, "1e-8", coordinates);
       EXPECT_TRUE(has_complex_parts(setting));
-      const RecordedTrace found = record_trace(setting);
-      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      const RecordedTrace found = completed_trace(setting);
       EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
       EXPECT_TRUE(found.result.notes.empty());
       expect_eigenvalues(found, shaft, 0.0, 1.0, 1e-8);
       // Cross-coupling makes forward whirl unstable, one mode after the other.
       std::size_t growing = 0;
       for (const Complex s : complex_eigenvalues(shaft, 1.0)) growing += s.real() > 0.0 ? 1 : 0;
-      EXPECT_EQ(places_of(found, EventKind::flutter).size(), growing);
+      EXPECT_EQ(places_of(found.result, EventKind::flutter).size(), growing);
       EXPECT_EQ(growing > 0, circulatory > 0.0);
     }
   }
@@ -278,13 +266,12 @@ TEST(WhirlParts, WhirlsThatOnlyCirculatoryForcesTellApartCrossAtRest) {
     const double from = backward ? 6.0 : 0.0;
     const Setting setting = setting_of(shaft, from, 6.0 - from, "1e-7");
     EXPECT_TRUE(has_complex_parts(setting));
-    const RecordedTrace found = record_trace(setting);
-    ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+    const RecordedTrace found = completed_trace(setting);
     EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
-    const std::vector<double> crossings = places_of(found, EventKind::crossing);
+    const std::vector<double> crossings = places_of(found.result, EventKind::crossing);
     EXPECT_EQ(crossings.size(), 4U);
     for (const double p : crossings) EXPECT_NEAR(p, 0.0, 1e-9);
-    EXPECT_EQ(places_of(found, EventKind::flutter).size(), 4U);
+    EXPECT_EQ(places_of(found.result, EventKind::flutter).size(), 4U);
     expect_eigenvalues(found, shaft, from, 6.0 - from, 1e-7);
   }
 }
@@ -297,8 +284,7 @@ TEST(WhirlParts, SlightlyAnisotropicShaftIsOneRealPart) {
     for (const Coordinates coordinates : {Coordinates::given, Coordinates::mixed}) {
       const Setting setting = setting_of(shaft, 0.0, 1.0, "1e-6", coordinates, anisotropy);
       EXPECT_FALSE(has_complex_parts(setting)) << anisotropy;
-      const RecordedTrace found = record_trace(setting);
-      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      const RecordedTrace found = completed_trace(setting);
       expect_eigenvalues(found, shaft, 0.0, 1.0, 1e-6);
     }
   }
@@ -344,8 +330,7 @@ TEST(WhirlParts, ModeThatRestsInATurningFrameGoesOn) {
       const double from = backward ? 0.9 : 0.0, to = 0.9 - from;
       const Setting setting = setting_of(shaft, from, to, "1e-7");
       EXPECT_FALSE(has_complex_parts(setting));
-      const RecordedTrace found = record_trace(setting);
-      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      const RecordedTrace found = completed_trace(setting);
       for (const double p : {0.05, 0.37, 0.71, 0.85}) {
         const ComplexVector s = found.eigenvalues_at(p);
         EXPECT_LT(matched_distance({s.begin(), s.end()}, upper_eigenvalues(shaft, p)), 1e-6) << p;
@@ -370,8 +355,7 @@ TEST(WhirlParts, ModeThatRestsBetweenThePlacesIsNotLost) {
       const double from = backward ? 0.4 : 0.2, to = backward ? 0.2 : 0.4;
       const Setting setting = setting_of(shaft, from, to, "1e-7");
       EXPECT_TRUE(has_complex_parts(setting));
-      const RecordedTrace found = record_trace(setting);
-      ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+      const RecordedTrace found = completed_trace(setting);
       for (const double p : {0.21, 0.26, 0.295, 0.303, 0.34, 0.39}) {
         const ComplexVector s = found.eigenvalues_at(p);
         EXPECT_LT(matched_distance({s.begin(), s.end()}, upper_eigenvalues(shaft, p)), 1e-5) << p;
@@ -384,8 +368,7 @@ TEST(WhirlParts, ModeThatRestsBetweenThePlacesIsNotLost) {
 TEST(WhirlParts, ShaftThatBecomesOverdampedIsNotLost) {
   Shaft shaft = unequal_chain(3, 0.0, 0.0);
   shaft.C[1] = 0.1 * shaft.C[1] + 2.0 * ComplexMatrix::Identity(3, 3);
-  const RecordedTrace found = record_trace(setting_of(shaft, 0.0, 3.0, "1e-7"));
-  ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+  const RecordedTrace found = completed_trace(setting_of(shaft, 0.0, 3.0, "1e-7"));
   expect_eigenvalues(found, shaft, 0.0, 3.0, 1e-6);
 }
 
@@ -405,8 +388,7 @@ TEST(WhirlParts, EqualShaftsAreTracedOnceEach) {
   add(one.C, two.C);
   add(one.K, two.K);
   for (const Coordinates coordinates : {Coordinates::given, Coordinates::mixed}) {
-    const RecordedTrace found = record_trace(setting_of(two, 0.0, 1.0, "1e-8", coordinates));
-    ASSERT_EQ(found.result.status, TraceStatus::completed) << found.result.message;
+    const RecordedTrace found = completed_trace(setting_of(two, 0.0, 1.0, "1e-8", coordinates));
     EXPECT_EQ(found.result.certified_steps, found.result.mode_steps);
     EXPECT_EQ(found.nodes.front().tracks.size(), 6U);  // of the 12 modes
     expect_eigenvalues(found, two, 0.0, 1.0, 1e-8);

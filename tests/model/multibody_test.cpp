@@ -70,8 +70,7 @@ TEST(Multibody, StructureFlagsComeFromTheEffects) {
 TEST(Multibody, TracingAParameterThatMovesNothingKeepsTheEquilibrium) {
   const Setting setting =
       scene_setting("rotating_mass", {{"parameter", "drag"}, {"from", "1"}, {"to", "30"}});
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed);
+  const RecordedTrace recorded = completed_trace(setting);
   for (const PathNode& node : recorded.nodes) EXPECT_EQ(node.path.x.col(0), recorded.nodes[0].path.x.col(0));
   // KINSOL ran at the first point only.
   const RecordedTrace shorter =
@@ -89,8 +88,7 @@ TEST(Multibody, FixedEquilibriumWithoutConstraintsIsSolvedAtTheStart) {
       "[[drag]]\npoint = \"bob\"\ncoefficient = \"c\"\n"
       "[[guided_spring]]\npoint = \"bob\"\ndirection = [0, 1, 0]\nstiffness = 5\n");
   ASSERT_TRUE(setting.model->structure(0).fixed_equilibrium);
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   const double length = 1.0 + 2.0 * 9.81 / 30.0;  // hangs straight down
   for (const PathNode& node : recorded.nodes) {
     EXPECT_NEAR(node.path.x(2, 0), -length, 1e-12);

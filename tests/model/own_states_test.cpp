@@ -85,8 +85,7 @@ class MaxwellDamper : public testing::TestWithParam<Traced> {
 
 TEST_P(MaxwellDamper, AddsTheRealRootOfTheCubic) {
   const auto& [parameter, from, to] = GetParam();
-  const RecordedTrace recorded = record_trace(make_setting(oscillator(range(parameter, from, to))));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(make_setting(oscillator(range(parameter, from, to))));
   EXPECT_EQ(recorded.result.n_modes, 2);
   EXPECT_EQ(recorded.result.n_infinite, 0);
   EXPECT_TRUE(recorded.result.notes.empty());
@@ -153,12 +152,11 @@ TEST(OwnStates, StartWhereTheirEquationsHold) {
 }
 
 TEST(OwnStates, HaveExactZerosInTheMassMatrixOfTheReducedPencil) {
-  const RecordedTrace recorded = record_trace(
+  const RecordedTrace recorded = completed_trace(
       make_setting(oscillator(range("k", 10, 40)) +
                    "[[point]]\nname = \"far\"\nmass = 1\nposition = [3, 0, 4]\n"
                    "[[rod]]\nfrom = \"bob\"\nto = \"far\"\nlength = 5\n[gravity]\nacceleration = [3, 1, 4]\n"
                    "[[maxwell_damper]]\nfrom = [0, 2, 1]\nto = \"far\"\nstiffness = 5\ncoefficient = 2\n"));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
   for (const PathNode& node : recorded.nodes) {
     const Matrix& M = node.pencil.M[0];
     EXPECT_EQ(M.rows(), 5);
@@ -182,8 +180,7 @@ TEST(OwnStates, FollowLargeDisplacements) {
       "[[follower_force]]\npoint = \"bob\"\nfrom = [0, 0, 0]\nto = \"bob\"\nmagnitude = \"9.81*p\"\n"
       "angle = \"-pi/2\"\naxis = [0, 1, 0]\n"
       "[[maxwell_damper]]\nfrom = [0.8, 0, 0.3]\nto = \"bob\"\nstiffness = 20\ncoefficient = 3\n");
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   for (const PathNode& node : recorded.nodes) {
     const double x = node.path.x(0, 0), z = node.path.x(2, 0);
     EXPECT_NEAR(x, length * node.p, 1e-10);
@@ -222,8 +219,7 @@ TEST(OwnStates, SensitivitiesFollowTheCubic) {
 
 /// Without a dashpot the spring hangs loose: no force, and an infinite eigenvalue, which is no mode.
 TEST(OwnStates, ADashpotOfZeroGivesNoForceAndNoMode) {
-  const RecordedTrace recorded = record_trace(make_setting(oscillator(range("m", 1, 4), 0.0)));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(make_setting(oscillator(range("m", 1, 4), 0.0)));
   EXPECT_EQ(recorded.result.n_available, 1);
   EXPECT_EQ(recorded.result.n_infinite, 1);
   for (const double m : {1.0, 2.3, 4.0})
@@ -233,8 +229,7 @@ TEST(OwnStates, ADashpotOfZeroGivesNoForceAndNoMode) {
 
 /// The eigenvalue comes from infinity as the dashpot grows from zero, and is found on the way.
 TEST(OwnStates, TheEigenvalueOfADashpotThatGrowsFromZeroIsFound) {
-  const RecordedTrace recorded = record_trace(make_setting(oscillator(range("c", 0, 5))));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(make_setting(oscillator(range("c", 0, 5))));
   EXPECT_LT(distance(recorded.eigenvalues_at(5.0), cubic(mass, beside, spring, 5.0)), 1e-10);
   EXPECT_EQ(recorded.result.n_columns, 2);
 }
@@ -325,8 +320,7 @@ struct Row {
 TEST(OwnStates, WorkWithSparseMatrices) {
   const Row row;
   const Setting setting = make_setting(row.scene);
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   EXPECT_TRUE(recorded.nodes[0].linearization.K[0].is_sparse());
   for (const double c : {0.5, 1.7, 4.0}) {
     const Spectrum spectrum = compute_spectrum(row.M, c * row.C, row.K);

@@ -139,8 +139,7 @@ TEST(SampledFamily, NoiseIsInterpolatedWithALowDegree) {
 TEST(SampledFamily, LociPassThroughTheEigenvaluesOfTheSamples) {
   const SampledData data = sampled(pole(0.3), sample_values(9, 7));
   const SampledScene scene(data, "", "from = 0\nto = 1\ntolerance = 1e-11\n");
-  const RecordedTrace trace = record_trace(scene.setting());
-  ASSERT_EQ(trace.result.status, TraceStatus::completed);
+  const RecordedTrace trace = completed_trace(scene.setting());
   EXPECT_EQ(trace.result.certified_steps, trace.result.mode_steps);
   for (std::size_t i = 0; i < data.count(); ++i) {
     const Eigen::EigenSolver<Matrix> expected(data.A[i]);
@@ -190,8 +189,7 @@ TEST(SampledFamily, DeclaredKinksSplitTheInterpolant) {
   const SampledData data = sampled(kinked, values);
   const auto error = [&](const SampledScene& scene) {
     const Setting setting = scene.setting();
-    const RecordedTrace trace = record_trace(setting);
-    EXPECT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
+    const RecordedTrace trace = completed_trace(setting);
     double largest = 0.0;
     for (double p = 0.01; p < 1.0; p += 0.0173) {
       const ComplexVector exact = Eigen::EigenSolver<Matrix>(kinked(p)).eigenvalues();

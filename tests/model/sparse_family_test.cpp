@@ -82,8 +82,7 @@ TEST_F(SparseFamilyFile, LinearizationIsTheSeriesOfTheSum) {
 }
 
 TEST_F(SparseFamilyFile, SmallOnesAreTracedByTheDenseEngine) {
-  const RecordedTrace trace = record_trace(setting());
-  ASSERT_EQ(trace.result.status, TraceStatus::completed);
+  const RecordedTrace trace = completed_trace(setting());
   const ComplexVector s = trace.eigenvalues_at(0.6);
   const double a = 2.18, b = 4.5, mean = 0.5 * (a + b), half = std::sqrt(0.25 * (a - b) * (a - b) + 1.0);
   EXPECT_NEAR(s[0].imag(), std::sqrt(mean - half), 1e-6);

@@ -31,11 +31,8 @@ struct Buckling {
   explicit Buckling(Setting setting) {
     EXPECT_TRUE(is_large(*setting.model, setting.options));
     project_if_large(setting.model, setting.options);
-    trace = record_trace(setting);
-    EXPECT_EQ(trace.result.status, TraceStatus::completed) << trace.result.message;
-    for (const Event& event : trace.result.events) {
-      if (event.kind == EventKind::branch_point) branch_points.push_back(event);
-    }
+    trace = completed_trace(setting);
+    branch_points = events_of(trace.result, EventKind::branch_point);
   }
   double place() const { return branch_points.empty() ? NAN : branch_points.front().p; }
 };

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <map>
 #include <random>
 
 #include "eigentrail/projection/project.hpp"
@@ -122,15 +121,10 @@ TEST(Projection, CrossingNarrowVeeringAndFlutterOfALargeModelAreToldApart) {
   const std::unique_ptr<ProjectedFamily> model = projected_family(setup, setup.options);
   const TraceResult result = trace(*model, setup.options, TraceObserver{});
   EXPECT_EQ(result.status, TraceStatus::completed);
-  std::map<EventKind, std::vector<Event>> found;
-  for (const Event& event : result.events) found[event.kind].push_back(event);
-  ASSERT_EQ(found[EventKind::crossing].size(), 1U);
-  EXPECT_NEAR(found[EventKind::crossing].front().p, 0.3, 1e-9);
-  ASSERT_EQ(found[EventKind::veering].size(), 1U);
-  EXPECT_NEAR(found[EventKind::veering].front().p, 0.6, 1e-9);
-  EXPECT_NEAR(found[EventKind::veering].front().half_width, 1e-6, 1e-9);
-  ASSERT_EQ(found[EventKind::flutter].size(), 1U);
-  EXPECT_NEAR(found[EventKind::flutter].front().p, 0.45, 1e-9);
+  EXPECT_NEAR(only_event(result, EventKind::crossing).p, 0.3, 1e-9);
+  EXPECT_NEAR(only_event(result, EventKind::veering).p, 0.6, 1e-9);
+  EXPECT_NEAR(only_event(result, EventKind::veering).half_width, 1e-6, 1e-9);
+  EXPECT_NEAR(only_event(result, EventKind::flutter).p, 0.45, 1e-9);
 }
 
 /// x' = A x, as a chain of first order: infinite eigenvalues are a matter of the form with velocities, and
@@ -281,13 +275,8 @@ TEST(Projection, ACollisionOnTheRealAxisTakesFewFactorizations) {
     EXPECT_LE(traced.model->projection()->factorizations, tolerance > 1e-9 ? 12 : 16) << tolerance;
     EXPECT_EQ(traced.model->projection()->notes.empty(), tolerance > 1e-9);
     EXPECT_LT(error(setup, traced), std::max(tolerance, 1e-8));
-    int collisions = 0, divergences = 0;
-    for (const Event& event : traced.result.events) {
-      collisions += event.kind == EventKind::collision ? 1 : 0;
-      divergences += event.kind == EventKind::divergence ? 1 : 0;
-    }
-    EXPECT_EQ(collisions, 1) << tolerance;
-    EXPECT_EQ(divergences, 1) << tolerance;
+    EXPECT_EQ(events_of(traced.result, EventKind::collision).size(), 1U) << tolerance;
+    EXPECT_EQ(events_of(traced.result, EventKind::divergence).size(), 1U) << tolerance;
   }
 }
 

@@ -64,11 +64,7 @@ double flutter_of_trace(const OptionTexts& options, const std::string& drag = "2
   const Setting setting =
       scene_setting("rotating_mass", options, {{"drag   = { value = 2.0", "drag   = { value = " + drag}});
   const TraceResult result = trace(*setting.model, setting.options, {});
-  double place = NAN;
-  for (const Event& event : result.events) {
-    if (event.kind == EventKind::flutter) place = event.p;
-  }
-  return place;
+  return only_event(result, EventKind::flutter).p;
 }
 
 // In 40 digits: tests/hard_cases/reference_multibody.py.

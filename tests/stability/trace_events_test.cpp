@@ -30,12 +30,7 @@ Setting oscillator(const Oscillator& o) {
 }
 
 std::vector<Event> events_of(const Setting& setting, EventKind kind) {
-  TraceResult result = trace(*setting.model, setting.options, {});
-  EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
-  std::erase_if(result.events, [kind](const Event& event) { return event.kind != kind; });
-  std::sort(result.events.begin(), result.events.end(),
-            [](const Event& a, const Event& b) { return a.p < b.p; });
-  return result.events;
+  return test::events_of(completed_trace(setting).result, kind);
 }
 
 constexpr double located = 1e-10;

@@ -105,8 +105,7 @@ constexpr double redundancy_tolerance = 1e-9;
 
 /// The bob swings with one mode, whose frequency is that of its length.
 void expect_swing(const std::string& rods) {
-  const RecordedTrace recorded = record_trace(make_setting(plain_pendulum + rods));
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(make_setting(plain_pendulum + rods));
   ASSERT_EQ(recorded.result.n_modes, 1);
   for (const PathNode& node : recorded.nodes) {
     const double expected = std::sqrt(9.81 / node.p);

@@ -172,8 +172,7 @@ TEST(RotorTrim, LociAreThoseWithTheUnknownsAsNumbers) {
   for (const char* unknown : {"pitch", "omega"}) {
     const Setting setting =
         make_setting(rotor("") + traced("weight", 1000, 3000) + trim(unknown, "thrust(air) = weight"));
-    const RecordedTrace recorded = record_trace(setting);
-    ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+    const RecordedTrace recorded = completed_trace(setting);
     for (const double weight : {1350.0, 2710.0}) {
       const Solved there = solve(setting, "weight", weight);
       ASSERT_EQ(there.at.status, SteadyStatus::converged) << there.at.report.message;

@@ -75,8 +75,7 @@ double holding_torque(double angle) {
 TEST(Trim, LociFollowTheTrimmedStateWithTheUnknownsHeld) {
   const Setting setting =
       make_setting(pendulum(along("angle", 0.1, 1.2), trim("torque", "angle(hinge) = angle")));
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   for (int i = 0; i < 50; ++i) {
     const double angle = 0.1 + 1.1 * i / 50.0;
     const ComplexVector s = recorded.eigenvalues_at(angle);
@@ -310,12 +309,8 @@ chord = 0.2
 TEST(Trim, PathTurnsBackWhereTheConditionHasAFold) {
   const Setting setting =
       make_setting(pendulum(along("reach", 0.3, 0.9), trim("torque", "position(bob.tip, x) = reach")));
-  const RecordedTrace recorded = record_trace(setting);
-  EXPECT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
-  const auto is_fold = [](const Event& event) { return event.kind == EventKind::fold; };
-  const auto& events = recorded.result.events;
-  ASSERT_EQ(std::count_if(events.begin(), events.end(), is_fold), 1);
-  EXPECT_NEAR(std::find_if(events.begin(), events.end(), is_fold)->p, arm, 1e-9);
+  const RecordedTrace recorded = completed_trace(setting);
+  EXPECT_NEAR(only_event(recorded.result, EventKind::fold).p, arm, 1e-9);
   // On the way back the angle is beyond a quarter turn.
   const std::vector<ComplexVector> both = recorded.all_eigenvalues_at(0.5);
   ASSERT_EQ(both.size(), 2u);
@@ -350,11 +345,7 @@ TEST(Trim, PathTurnsBackWhereOnlyTheUnknownMoves) {
     const Setting setting = make_setting(scene);
     const RecordedTrace recorded = record_trace(setting);
     EXPECT_EQ(recorded.result.status, TraceStatus::completed) << c.lean << ": " << recorded.result.message;
-    const auto& events = recorded.result.events;
-    const auto fold = std::find_if(events.begin(), events.end(),
-                                   [](const Event& event) { return event.kind == EventKind::fold; });
-    ASSERT_NE(fold, events.end()) << c.lean;
-    EXPECT_NEAR(fold->p, least, 1e-9 * least) << c.lean;
+    EXPECT_NEAR(only_event(recorded.result, EventKind::fold).p, least, 1e-9 * least) << c.lean;
     const PathNode& last = recorded.nodes.back();
     EXPECT_EQ(last.p, recorded.nodes.front().p) << c.lean;
     EXPECT_NEAR(last.path.lambda(setting.model->n_constraints(), 0) * c.unit, -std::numbers::pi / 3.0, 1e-8)
@@ -371,8 +362,7 @@ TEST(Trim, CrossingOfTrimmedPathsIsABranchPoint) {
                                    trim("lean", "position(bob.tip, y) = reach * lean * (lean - offset)"));
   scene.replace(scene.find("[gravity]"), 0, "lean = 0.0\noffset = -0.37\n");
   const Setting setting = make_setting(scene);
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   std::vector<double> places;
   for (const Event& event : recorded.result.events) {
     EXPECT_NE(event.kind, EventKind::fold);
@@ -391,8 +381,7 @@ TEST(Trim, CrossingOfTrimmedPathsIsABranchPoint) {
 TEST(Trim, DivergenceWithHeldControlsIsNoFold) {
   const Setting setting =
       make_setting(pendulum(along("angle", 1.0, 2.6), trim("torque", "angle(hinge) = angle")));
-  const RecordedTrace recorded = record_trace(setting);
-  ASSERT_EQ(recorded.result.status, TraceStatus::completed) << recorded.result.message;
+  const RecordedTrace recorded = completed_trace(setting);
   const double critical = std::acos(-stiffness / (mass * g * arm));
   int zeros = 0;
   for (const Event& event : recorded.result.events) {

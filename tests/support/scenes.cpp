@@ -130,4 +130,30 @@ RecordedTrace record_trace(const Setting& setting, BasisChoice basis) {
   return recorded;
 }
 
+RecordedTrace completed_trace(const Setting& setting) {
+  RecordedTrace recorded = record_trace(setting);
+  if (recorded.result.status != TraceStatus::completed) throw std::runtime_error(recorded.result.message);
+  return recorded;
+}
+
+std::vector<Event> events_of(const TraceResult& result, EventKind kind) {
+  std::vector<Event> found;
+  std::copy_if(result.events.begin(), result.events.end(), std::back_inserter(found),
+               [kind](const Event& event) { return event.kind == kind; });
+  std::sort(found.begin(), found.end(), [](const Event& a, const Event& b) { return a.p < b.p; });
+  return found;
+}
+
+std::vector<double> places_of(const TraceResult& result, EventKind kind) {
+  std::vector<double> places;
+  for (const Event& event : events_of(result, kind)) places.push_back(event.p);
+  return places;
+}
+
+Event only_event(const TraceResult& result, EventKind kind) {
+  const std::vector<Event> found = events_of(result, kind);
+  if (found.size() == 1) return found.front();
+  throw std::runtime_error(std::to_string(found.size()) + " events of the kind " + event_name(kind));
+}
+
 }  // namespace eigentrail::test

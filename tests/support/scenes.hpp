@@ -57,5 +57,13 @@ struct RecordedTrace {
   ComplexVector eigenvalues_of_node(std::size_t node) const;
 };
 RecordedTrace record_trace(const Setting& setting, BasisChoice basis = BasisChoice::aligned);
+/// The same of a trace that has to arrive. Throws std::runtime_error with its message if it does not.
+RecordedTrace completed_trace(const Setting& setting);
+
+/// The events of one kind, and their places, by ascending parameter.
+std::vector<Event> events_of(const TraceResult& result, EventKind kind);
+std::vector<double> places_of(const TraceResult& result, EventKind kind);
+/// The one event of a kind. Throws std::runtime_error if there is none or another one.
+Event only_event(const TraceResult& result, EventKind kind);
 
 }  // namespace eigentrail::test
