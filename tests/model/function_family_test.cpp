@@ -79,17 +79,6 @@ TEST(FunctionFamily, TakesNineCallsForPolynomialsUpToDegreeFour) {
   }
 }
 
-TEST(FunctionFamily, HasTheSeriesOfThePolynomialAlongThePath) {
-  const FunctionFamily family([](double p) { return with_K(square(p * p * p, 0, 0, 1)); }, range(0.0, 2.0));
-  const Linearization lin = at(family, 0.75, 4);
-  ASSERT_EQ(lin.K.size(), 4U);
-  const double p = 0.75;
-  for (const auto& [k, exact] : {std::pair(0, p * p * p), {1, 3 * p * p}, {2, 3 * p}, {3, 1.0}})
-    EXPECT_NEAR(lin.K[static_cast<std::size_t>(k)](0, 0), exact, 1e-12) << k;
-  EXPECT_EQ(lin.M.size(), 1U);
-  EXPECT_EQ(lin.C.size(), 1U);
-}
-
 /// A pole p0 beside the range [0, 1]: the coefficients decrease by rho = x0 + sqrt(x0^2 - 1) each, x0 = 1 - 2
 /// p0. One piece needs log(1/tolerance)/log(rho) of them; more than 33 of them take pieces.
 TEST(FunctionFamily, ResolvesAPoleBesideTheRange) {
@@ -265,11 +254,15 @@ TEST(FunctionFamily, AJumpIsReportedWithItsPlace) {
   EXPECT_NE(text.find("K(0, 0)"), std::string::npos) << text;
 }
 
-/// With calls enough, pieces become so short that the kink is within the tolerance, 1e-8 of 5.7.
+/// With calls enough, pieces become so short that the kink is within the tolerance, 1e-8 of 5.7. It has its
+/// place in the description of the model.
 TEST(FunctionFamily, AKinkIsResolvedByShortPiecesIfCallsAllow) {
   const FunctionFamily family([](double p) { return with_K(square(5.0 + std::abs(p - 0.3), 1, 1, 2.0)); },
                               range(0.0, 1.0, 1e-8));
   EXPECT_GT(family.pieces().size(), 10U);
+  const std::string text = family.description().data.front().second;
+  EXPECT_NE(text.find("kinks: at p = 0.3"), std::string::npos) << text;
+  EXPECT_FALSE(family.landings(0).empty());
   for (int i = 0; i <= 2000; ++i) {
     const double p = 0.3 + std::copysign(0.3 * std::pow(0.98, i), i % 2 - 0.5);
     ASSERT_NEAR(at(family, p).K[0](0, 0), 5.0 + std::abs(p - 0.3), 5.7e-8) << p;
@@ -308,15 +301,6 @@ TEST(FunctionFamily, BumpsAsWideAsTheResolutionAreFound) {
     missed += error_at_bump(centre, width, 1.0) > 1e-2 ? 1 : 0;
   }
   EXPECT_GT(missed, 8);
-}
-
-/// A kink that short pieces resolve has its place in the description of the model.
-TEST(FunctionFamily, AKinkIsNamed) {
-  const FunctionFamily family([](double p) { return with_K(square(5.0 + std::abs(p - 0.3), 1, 1, 2.0)); },
-                              range(0.0, 1.0, 1e-8));
-  const std::string text = family.description().data.front().second;
-  EXPECT_NE(text.find("kinks: at p = 0.3"), std::string::npos) << text;
-  ASSERT_FALSE(family.landings(0).empty());
 }
 
 struct OwnError : std::runtime_error {

@@ -155,28 +155,6 @@ TEST(Recorder, EqualOperationsAreRecordedOnce) {
   EXPECT_EQ(products, 2);
 }
 
-TEST(Recorder, ZerosAndOnesOfTheSourceAreNoOperations) {
-  Recorder recorder;
-  const Recorded p = recorder.number(4);
-  const Recorded same = 0.0 + 1.0 * p * 1.0 - 0.0 * p;
-  EXPECT_EQ(same.node(), p.node());
-  EXPECT_EQ(recorder.record().operations.size(), 1u);
-  EXPECT_TRUE((p * 0.0).is_literal(0.0));
-}
-
-/// Numbers are inputs whatever their value, so elements with other numbers have the same record.
-TEST(Recorder, NumbersAreNotLookedAt) {
-  const auto record = [](Recorder& recorder, int stiffness, int length) {
-    const Recorded k = recorder.number(stiffness), l = recorder.number(length);
-    recorder.record().forces = {recorder.node(k * l)};
-  };
-  Recorder first, second;
-  record(first, 3, 9);
-  record(second, 8, 2);
-  EXPECT_EQ(first.record(), second.record());
-  EXPECT_EQ(first.numbers(), (std::vector<int>{3, 9}));
-}
-
 TEST(Programs, HaveNothingThatIsNotWanted) {
   Recorder recorder;
   const Recorded x = recorder.component({{0, Recorded(1.0)}}), p = recorder.number(0);
