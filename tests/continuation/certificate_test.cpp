@@ -183,13 +183,6 @@ INSTANTIATE_TEST_SUITE_P(Steps, CertificateAtVeering,
                                          NarrowVeering{1e-6, -0.3, 0.3}, NarrowVeering{1e-6, -0.317, 0.211},
                                          NarrowVeering{1e-9, -0.3, 0.2}, NarrowVeering{1e-12, -0.1, 0.2}));
 
-TEST(Certificate, ClosesForSinglesOnAStepThatResolvesTheVeering) {
-  for (const double p : {-0.5, -0.2, -0.1, -0.05, 0.0, 0.05, 0.1}) {
-    Step step(veering(0.2), p, p + 0.05);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(step.certified(i)) << "mode " << i << " at " << p;
-  }
-}
-
 /// The veering in coordinates that differ by 1e4, where the plain norm of a change is as large: the norms
 /// that are used in its place do not close the test of an exchange.
 TEST(Certificate, StaysOpenForSinglesThatAreExchangedInBadlyScaledCoordinates) {

@@ -114,47 +114,6 @@ TEST(ModeThatRunsToInfinity, LeavesTheSameModesWhereverTheTraceBegins) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(finite(far)[i], finite(near)[i], 1e-6);
 }
 
-/// A node with one mode, from a series of its eigenvalue.
-PathNode node_of(const ComplexVector& series, Chart chart) {
-  PathNode node;
-  Track track;
-  track.functions = series.transpose();
-  track.roots = series.head(1);
-  track.modes = {0};
-  track.pair.chart = chart;
-  track.pair.Lambda = ComplexMatrix::Constant(1, 1, series[0]);
-  node.tracks.push_back(std::move(track));
-  return node;
-}
-
-/// (0.01 - h)^power 10j: coefficients of powers of h.
-ComplexVector power_of_distance(double power) {
-  ComplexVector series(4);
-  series[0] = 10.0 * j * std::pow(0.01, power);
-  for (Eigen::Index k = 1; k < 4; ++k)
-    series[k] = -series[k - 1] * (power - static_cast<double>(k - 1)) / (0.01 * static_cast<double>(k));
-  return series;
-}
-
-TEST(RunsToInfinity, AreThoseLikeAReciprocalRoot) {
-  for (const double varied : {1.0 / 3.0, 1.0, 3.0}) {
-    SCOPED_TRACE(varied);
-    InfinityThresholds thresholds;
-    thresholds.like_a_root *= varied;
-    const auto runs = [&](const PathNode& node, double direction) {
-      return runs_to_infinity(node, direction, thresholds);
-    };
-    const PathNode root = node_of(power_of_distance(-0.5), Chart::finite);
-    ASSERT_EQ(runs(root, 1.0).size(), 1U);
-    EXPECT_NEAR(runs(root, 1.0)[0].distance, 0.01, 1e-14);
-    EXPECT_NEAR(runs(root, 1.0)[0].magnitude, 100.0, 1e-10);
-    EXPECT_TRUE(runs(root, -1.0).empty()) << "it lies ahead";
-    EXPECT_EQ(runs(node_of(power_of_distance(0.5), Chart::reciprocal), 1.0).size(), 1U) << "1/s like a root";
-    EXPECT_TRUE(runs(node_of(power_of_distance(1.0), Chart::reciprocal), 1.0).empty()) << "smooth";
-    EXPECT_TRUE(runs(node_of(power_of_distance(0.5), Chart::finite), 1.0).empty()) << "s itself vanishes";
-  }
-}
-
 /// One mode alone ends, too: what comes back is a complex pair.
 TEST(ModeThatRunsToInfinity, AloneComesBackAsOnePair) {
   const RecordedTrace trace = completed_trace(make_setting(R"([trace]

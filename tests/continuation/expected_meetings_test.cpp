@@ -146,49 +146,12 @@ TEST(ExpectedInBlocks, SingleModesHaveNone) {
   EXPECT_TRUE(lines(Matrix{{2.0, 1.0}, {2.6, -1.0}}, 0.0, 0.8, false).in_blocks().empty());
 }
 
-class ExpectedVeering : public testing::TestWithParam<double> {};
-
-TEST_P(ExpectedVeering, LiesItsHalfWidthBesideTheStepInBothDirections) {
-  const double eps = GetParam();
-  for (const auto& [from, to] : {std::pair(-0.05, 0.2), std::pair(0.2, -0.05)}) {
-    const PlantedStep step = veering(eps, from, to, false);
-    const auto found = step.beside(0.1);
-    ASSERT_EQ(found.size(), 1U) << from;
-    EXPECT_NEAR(step.places(found)[0].real(), 0.1, 1e-8);
-    EXPECT_NEAR(std::abs(found[0].position.imag()), eps, 1e-8);
-    EXPECT_EQ(found[0].a.track, 0U);
-    EXPECT_EQ(found[0].b.track, 1U);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(HalfWidths, ExpectedVeering, testing::Values(0.08, 0.03, 1e-2, 1e-3));
-
 TEST(ExpectedBeside, WhatLiesBeforeOrBehindTheStepIsLeftToItsNeighbours) {
   EXPECT_TRUE(veering(0.01, 0.2, 0.4, false).beside(0.05).empty());
   EXPECT_TRUE(veering(0.01, -0.2, 0.0, false).beside(0.05).empty());
   // Close to an end both neighbouring steps may report it.
   EXPECT_EQ(veering(0.01, 0.11, 0.4, false).beside(0.05).size(), 1U);
   EXPECT_EQ(veering(0.01, -0.2, 0.09, false).beside(0.05).size(), 1U);
-}
-
-TEST(ExpectedBeside, BlockOfTwoTellsItsOwn) {
-  const PlantedStep step = veering(0.03, -0.05, 0.2, true);
-  const auto found = step.beside(0.1);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_NEAR(step.places(found)[0].real(), 0.1, 1e-10);
-  EXPECT_NEAR(std::abs(found[0].position.imag()), 0.03, 1e-10);
-  // So close to the real axis that it counts as a meeting on the step, not as one beside it.
-  EXPECT_TRUE(veering(1e-4, -0.05, 0.2, true).beside(0.1).empty());
-}
-
-TEST(ExpectedBeside, SingleModesThatCrossAreExpectedOnTheAxis) {
-  const PlantedStep step = lines(Matrix{{2.0, 1.0}, {2.6, -1.0}, {7.0, 0.0}}, 0.0, 0.8, false);
-  const auto found = step.beside(0.1);
-  ASSERT_FALSE(found.empty());
-  for (const ExpectedMeeting& meeting : found) {
-    EXPECT_NEAR(step.places({meeting})[0].real(), 0.3, of_double_roots);
-    EXPECT_LT(std::abs(meeting.position.imag()), of_double_roots);
-  }
 }
 
 TEST(ExpectedBeside, ModesThatStayApartHaveNone) {

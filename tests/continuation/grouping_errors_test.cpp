@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <functional>
 
 #include "continuation/planted_points.hpp"
 #include "eigentrail/continuation/dense_output.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "continuation/planted_points.hpp"
-#include "eigentrail/modes/spectrum.hpp"
 
 namespace eigentrail::test::meetings_test {
 namespace {
@@ -77,28 +76,6 @@ TEST_P(SeenFrom, CrossingLiesWhereUncoupledModesAreEqual) {
 
 INSTANTIATE_TEST_SUITE_P(Distances, SeenFrom, testing::Values(0.0, 1e-9, -1e-6, 1e-3, -0.02, 0.1, -0.2));
 
-/// Frequencies 2 + p + p^2 and 2.6 - p + p^3 / 2 cross where 2 p + p^2 - p^3 / 2 = 0.6.
-TEST(NearestMeeting, CurvedModesCrossWhereTheirCurvesDo) {
-  Matrix w = Matrix::Zero(2, 4);
-  w << 2.0, 1.0, 1.0, 0.0, 2.6, -1.0, 0.0, 0.5;
-  Planted family = Planted::frequencies(uncoupled(w));
-  double place = 0.3;
-  for (int i = 0; i < 20; ++i) {
-    place -= (2.0 * place + place * place - 0.5 * std::pow(place, 3) - 0.6) /
-             (2.0 + 2.0 * place - 1.5 * place * place);
-  }
-  for (const double away : {0.1, 0.02, -0.01, 1e-3, -1e-4, 1e-6}) {
-    const double p = place + away;
-    const PathNode node = family.point(p, {{{(2.0 + p + p * p) * j, (2.6 - p + 0.5 * std::pow(p, 3)) * j}}});
-    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
-    ASSERT_TRUE(meeting.found) << away;
-    // Far from the meeting the predicted place has an error of the square of the distance. Close to it the
-    // place is accurate to rounding.
-    const double accuracy = std::abs(away) <= 1e-3 ? rounding : away * away;
-    EXPECT_NEAR(p + meeting.offset, place, accuracy) << away;
-  }
-}
-
 /// Frequencies 2 +- p of a matrix that has only one eigenvector where both are 2. The eigenvalues are smooth,
 /// but the modes coalesce.
 TEST(NearestMeeting, DoubleRootWithOneVectorIsACollision) {
@@ -129,24 +106,6 @@ TEST(NearestMeeting, OfTwoEqualPairsHasTheExponentOfOne) {
     EXPECT_NEAR(std::abs(meeting.puiseux), 1.0, 1e-3) << beside;
   }
 }
-
-class NearestVeering : public testing::TestWithParam<double> {};
-
-TEST_P(NearestVeering, HasTheHalfWidthOfItsCoupling) {
-  const double eps = GetParam();
-  Planted family = veering(eps);
-  for (const double p : {0.0, 0.5 * eps, -3.0 * eps}) {
-    const PathNode node = veering_point(family, p, eps);
-    const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
-    ASSERT_TRUE(meeting.found) << p;
-    EXPECT_EQ(meeting.kind, EventKind::veering) << p;
-    // The error of the place is the rounding error of Lambda divided by the slope of the discriminant.
-    EXPECT_NEAR(meeting.offset, -p, 1e-13 + 1e-9 * eps) << p;
-    EXPECT_NEAR(meeting.half_width, eps, 1e-13 + 1e-9 * eps) << p;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(HalfWidths, NearestVeering, testing::Values(0.3, 1e-2, 1e-4, 1e-6, 1e-8));
 
 /// Frequencies 2 + p +- slope sqrt(p^2 + half_width^2) in coordinates that are not at right angles: two modes
 /// that move together and meet at a small angle. Rounding of a frequency moves their crossing by rounding
@@ -206,39 +165,6 @@ TEST(NearestMeeting, ModesThatPassEachOtherDoNotMeet) {
   EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, reach).found);
 }
 
-/// s^2 + c s + 4 + p and s^2 + 4 - p, coupled by eps: exceptional points near j (eps - c) and -j (eps + c).
-class DampedVeering : public testing::TestWithParam<double> {
- protected:
-  static constexpr double eps = 0.05;
-  double damping = GetParam();
-  Planted family{{{Matrix::Identity(2, 2)},
-                  {Matrix{{damping, 0.0}, {0.0, 0.0}}},
-                  {Matrix{{4.0, eps}, {eps, 4.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}}}};
-};
-
-TEST_P(DampedVeering, IsTheNearerOfItsTwoExceptionalPoints) {
-  const PathPoint point = family.reduced(0.0);
-  const Spectrum spectrum = compute_spectrum(point.pencil.M[0], point.pencil.C[0], point.pencil.K[0]);
-  ASSERT_EQ(spectrum.modes.size(), 2U);
-  const PathNode node = family.point(0.0, {{{spectrum.modes[0].s, spectrum.modes[1].s}}});
-  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, reach);
-  ASSERT_TRUE(meeting.found);
-  EXPECT_EQ(meeting.kind, EventKind::veering);
-  EXPECT_NEAR(meeting.half_width, std::abs(eps - damping), 2e-3 * eps);
-  // The discriminant vanishes at the reported place, on one side of the real axis.
-  const ComplexMatrix gap = discriminant_of(node.tracks[0], {0}, {1}).transpose();
-  const auto at = [&](Complex p) {
-    Complex value = 0.0;
-    for (Eigen::Index k = gap.cols() - 1; k >= 0; --k) value = value * p + gap(0, k);
-    return std::abs(value);
-  };
-  const double nearest =
-      std::min(at({meeting.offset, meeting.half_width}), at({meeting.offset, -meeting.half_width}));
-  EXPECT_LT(nearest, 1e-6 * at(0.5));
-}
-
-INSTANTIATE_TEST_SUITE_P(Dampings, DampedVeering, testing::Values(0.0, 0.02, 0.04999));
-
 /// Between two exceptional points that are some ten times farther apart than rounding would split one double
 /// root, the nearer one is found, and not a single one in the middle; its place is known less well than
 /// others.
@@ -267,22 +193,6 @@ TEST(NearestMeeting, BeyondTheReachIsNone) {
   EXPECT_FALSE(nearest_meeting(node.tracks[0], {0}, {1}, 0.1).found);
 }
 
-TEST(NearestMeeting, OfADoubletWithAThirdIsACrossing) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
-  constexpr double place = 0.5 / 1.2;
-  for (const double p : {0.4, place - 1e-7, place}) {
-    const Complex twice = (2.0 + 0.5 * p) * j;
-    const PathNode node = family.point(p, {{{twice, (2.5 - 0.7 * p) * j, twice}}});
-    const Meeting meeting = nearest_meeting(node.tracks[0], {0, 2}, {1}, reach);
-    ASSERT_TRUE(meeting.found) << p;
-    EXPECT_NEAR(p + meeting.offset, place, 1e-10);
-    EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
-    if (p > 0.4) {
-      EXPECT_EQ(meeting.kind, EventKind::crossing) << p;
-    }
-  }
-}
-
 /// Two modes that coincide everywhere (a doublet) meet a third one together, whichever of the two is given.
 TEST(NearestMeeting, OfADoubletBesideItsCrossingIsThatOfAllThree) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 0.5}, {2.5, -0.7}, {2.0, 0.5}}));
@@ -297,47 +207,6 @@ TEST(NearestMeeting, OfADoubletBesideItsCrossingIsThatOfAllThree) {
   EXPECT_NEAR(p + meeting.offset, place, 1e-12);
   EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
 }
-
-class TripleCrossing : public testing::TestWithParam<double> {};
-
-TEST_P(TripleCrossing, IsOneMeetingOfAllThreeWhoeverIsAskedFor) {
-  const double p = GetParam();
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}, {2.0, 0.0}, {2.0, -0.6}, {3.0, 0.1}}));
-  const PathNode node =
-      family.point(p, {{{(2.0 + p) * j, 2.0 * j, (2.0 - 0.6 * p) * j, (3.0 + 0.1 * p) * j}}});
-  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
-    const Meeting meeting = nearest_meeting(node.tracks[0], {a}, {b}, reach);
-    ASSERT_TRUE(meeting.found) << a << " and " << b;
-    EXPECT_EQ(meeting.kind, EventKind::crossing);
-    EXPECT_NEAR(meeting.offset, -p, rounding);
-    EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Distances, TripleCrossing, testing::Values(0.0, 1e-7, -1e-4, 0.05));
-
-class TripleCollision : public testing::TestWithParam<double> {};
-
-/// (w - 2)^3 = p: all three vary like the cube root.
-TEST_P(TripleCollision, IsOneExceptionalPointWithItsPuiseuxCoefficient) {
-  const double p = GetParam();
-  Planted family = Planted::frequencies({Matrix{{2.0, 1.0, 0.0}, {0.0, 2.0, 1.0}, {0.0, 0.0, 2.0}},
-                                         Matrix{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}});
-  std::vector<Complex> s;
-  for (int i = 0; i < 3; ++i) s.push_back(j * (2.0 + std::cbrt(p) * std::polar(1.0, 2.0 * M_PI / 3.0 * i)));
-  const PathNode node = family.point(p, {{s}});
-  const Meeting meeting = nearest_meeting(node.tracks[0], {0}, {1}, 0.1);
-  ASSERT_TRUE(meeting.found);
-  EXPECT_EQ(meeting.kind, EventKind::collision);
-  EXPECT_EQ(meeting.members, (Members{0, 1, 2}));
-  // The slope of the product of the eigenvalues is a central difference with a step of a thousandth of the
-  // reach, and has the error of the square of that.
-  EXPECT_NEAR(meeting.offset, -p, 1e-8);
-  // (s - 2 j)^3 = j^3 p.
-  EXPECT_LT(std::abs(std::pow(meeting.puiseux, 3) + j), 1e-4);
-}
-
-INSTANTIATE_TEST_SUITE_P(Distances, TripleCollision, testing::Values(0.0, 1e-6, -1e-3, 0.02));
 
 /// Only two of three eigenvalues meet, at a distance as above. The third must not be included.
 TEST(NearestMeeting, LeavesOutAThirdThatOnlyComesNear) {

@@ -32,16 +32,6 @@ TEST(ModeStates, OfSingleModesAndBlocksAreAlike) {
   }
 }
 
-/// The conjugate is followed; the upper member is handed out.
-TEST(ModeStates, HaveTheUpperMember) {
-  Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}}));
-  PathNode node = family.point(0.0, alone({-2.0 * j}));
-  node.tracks[0].arriving = node.tracks[0].modes;
-  const auto states = mode_states(node, family.problem().traced);
-  EXPECT_LT(std::abs(states[0].s - 2.0 * j), 1e-12);
-  EXPECT_LT(std::abs(states[0].slope - j), 1e-12);
-}
-
 /// In the chart of 1/s, s and ds/dp are the same.
 TEST(ModeStates, DoNotDependOnTheChart) {
   Planted family = Planted::frequencies(uncoupled(Matrix{{2.0, 1.0}}));

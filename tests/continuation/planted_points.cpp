@@ -100,25 +100,11 @@ std::vector<Together> alone(const std::vector<Complex>& s) {
   return tracks;
 }
 
-ComplexVector roots_at(const Track& track, double h, const ComplexVector& expected) {
-  return in_order_of(expected, block_roots(evaluate_series(track.functions, h)));
-}
-
 double distance(const ComplexVector& a, const ComplexVector& b) {
   ComplexVector difference = ComplexVector::Zero(std::max(a.size(), b.size()));
   difference.head(a.size()) += a;
   difference.head(b.size()) -= b;
   return difference.cwiseAbs().maxCoeff();
-}
-
-double largest_miss(const Track& track, const std::function<ComplexVector(double)>& expected,
-                    const std::vector<double>& places) {
-  double worst = 0.0;
-  for (const double h : places) {
-    const ComplexVector roots = expected(h);
-    worst = std::max(worst, (roots_at(track, h, roots) - roots).cwiseAbs().maxCoeff());
-  }
-  return worst;
 }
 
 std::vector<Matrix> uncoupled(const Matrix& coefficients) {

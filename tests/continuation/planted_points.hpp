@@ -2,7 +2,6 @@
 // charts in which the modes are followed.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,16 +50,8 @@ class Planted {
 /// Every one as a track of its own.
 std::vector<Together> alone(const std::vector<Complex>& s);
 
-/// Eigenvalues from the series of a track at the distance h, in the order of `expected`.
-ComplexVector roots_at(const Track& track, double h, const ComplexVector& expected);
-
 /// Largest distance of the coefficients of two series; missing ones are zero.
 double distance(const ComplexVector& a, const ComplexVector& b);
-
-/// Largest distance of the eigenvalues of a track from closed forms, in the order of its roots, over the
-/// places where they are told.
-double largest_miss(const Track& track, const std::function<ComplexVector(double)>& expected,
-                    const std::vector<double>& places);
 
 /// Frequencies of uncoupled modes: row i of `coefficients` those of mode i by powers of p.
 std::vector<Matrix> uncoupled(const Matrix& coefficients);

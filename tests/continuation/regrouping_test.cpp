@@ -29,23 +29,6 @@ TEST(Regrouping, JoinsTwoModesThatMeetWithinTheStep) {
   EXPECT_EQ(node.tracks[0].modes, Modes{2});
 }
 
-TEST(Regrouping, JoinedBlockHasTheSeriesThatItsPartsLose) {
-  // A veering of half-width 0.01 seen from 0.2 before it: the block's functions are polynomials of degree 2.
-  constexpr double eps = 0.01;
-  Planted family = Planted::frequencies({Matrix{{2.0, eps}, {eps, 2.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}}});
-  const auto exact = [&](double p) {
-    return ComplexVector{{(2.0 - std::hypot(p, eps)) * j, (2.0 + std::hypot(p, eps)) * j}};
-  };
-  const ComplexVector start = exact(-0.2);
-  PathNode node = family.point(-0.2, alone({start[0], start[1]}));
-  const auto block_exact = [&](double h) { return exact(h - 0.2); };
-  const auto first_exact = [&](double h) { return ComplexVector(exact(h - 0.2).head(1)); };
-  EXPECT_GT(largest_miss(node.tracks[0], first_exact, {0.2, 0.4}), 1e-3);
-  ASSERT_TRUE(join(family.problem(), node, 0, {{false, 1, eps}}, family.counts));
-  // Rounding of delta over the distance of the roots, 2 eps.
-  EXPECT_LT(largest_miss(node.tracks[0], block_exact, {0.1, 0.2, 0.3, 0.4}), rounding / eps);
-}
-
 TEST(Regrouping, JoinsAPairWithItsConjugateToARealBlock) {
   Planted family = towards_the_axis(0.5);
   PathNode node = family.point(0.5, alone({upper(0.5, 0.5), far_away}));

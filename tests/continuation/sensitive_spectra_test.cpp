@@ -150,14 +150,6 @@ TEST(SensitiveSpectra, EightEigenvaluesMeetAndPart) {
   }
 }
 
-/// p s^2 + s + 1: one eigenvalue comes from infinity at p = 0, and meets the other at p = 1/4.
-TEST(SensitiveSpectra, AnEigenvalueFromInfinityIsTakenUp) {
-  const RecordedTrace trace = completed_trace(family(1, "[[0]], [[1]]", "[[1]]", "[[1]]", 0.0, 1.0, 1e-9));
-  EXPECT_NEAR(only_event(trace.result, EventKind::collision).p, 0.25, 1e-12);
-  EXPECT_NEAR(std::abs(trace.eigenvalues_at(0.2)[0] - (-1.0 + std::sqrt(0.2)) / 0.4), 0.0, 1e-8);
-  EXPECT_NEAR(std::abs(trace.eigenvalues_at(0.5)[0] - Complex(-1.0, 1.0)), 0.0, 1e-8);
-}
-
 /// A mass on drag, free in a plane: two zeros, and -drag twice, for every drag.
 TEST(SensitiveSpectra, ZerosOfAFreeParticleStayZero) {
   const RecordedTrace trace = completed_trace(
@@ -221,35 +213,6 @@ TEST(SensitiveSpectra, APoleOfTheEquilibriumEndsTheTraceWithAReason) {
   EXPECT_NE(trace.result.message.find("runs to infinity"), std::string::npos) << trace.result.message;
   EXPECT_NEAR(trace.result.reached, 10.0, 1e-3);
   EXPECT_LT(trace.result.nodes, 200);
-}
-
-/// A shaft of equal stiffness in both directions runs down: at rest forward and backward whirl of all modes
-/// meet at once, twenty pairs in one place.
-TEST(SensitiveSpectra, ForwardAndBackwardWhirlOfManyModesMeetAtRest) {
-  constexpr int n = 20;
-  const auto both = [](const auto& one) {  // of x and y alike: coordinates x1, y1, x2, y2 ...
-    return matrix(2 * n, [&](int i, int k) { return i % 2 == k % 2 ? one(i / 2, k / 2) : 0.0; });
-  };
-  const std::string K = both([](int i, int k) {
-    return i == k ? 2.0 + 0.3 * i : std::abs(i - k) == 1 ? -1.0 : 0.0;
-  });
-  const std::string G = matrix(2 * n, [](int i, int k) {
-    if (i % 2 == k % 2) return 0.0;
-    const int a = i / 2, b = k / 2;
-    const double of_discs = a == b ? 0.02 + 0.005 * ((3 * a) % 7) : std::abs(a - b) == 1 ? 0.004 : 0.0;
-    return i % 2 == 0 ? of_discs : -of_discs;
-  });
-  for (const double tolerance : {1e-6, 1e-10}) {
-    SCOPED_TRACE(tolerance);
-    const RecordedTrace trace = completed_trace(
-        family(2 * n, identity(2 * n), zero(2 * n) + ", " + G, K + ", " + zero(2 * n), 1.0, 0.0, tolerance));
-    EXPECT_LT(trace.result.nodes, 25);
-    for (const std::string& note : trace.result.notes) ADD_FAILURE() << note;
-    ComplexVector at_rest = trace.eigenvalues_at(0.0);
-    std::sort(at_rest.begin(), at_rest.end(), [](Complex a, Complex b) { return a.imag() < b.imag(); });
-    ASSERT_EQ(at_rest.size(), 2 * n);
-    for (Eigen::Index i = 0; i < 2 * n; i += 2) EXPECT_LT(std::abs(at_rest[i] - at_rest[i + 1]), 1e-6);
-  }
 }
 
 }  // namespace

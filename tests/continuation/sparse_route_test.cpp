@@ -74,28 +74,6 @@ TEST_F(SparseRoute, LinearizationHasFewEntries) {
   EXPECT_TRUE(point.equilibrium.kkt.constraints().is_sparse());
 }
 
-TEST_F(SparseRoute, PointsAgreeWithTheDenseRoute) {
-  const PathProblem by_sparse = problem_of(*setting.model), by_dense = problem_of(dense);
-  RunCounts counts;
-  const EquilibriumGuess guess{setting.model->initial_guess(by_sparse.parameters), Vector()};
-  const PathPoint first = reduce_at(by_sparse, 2.0, guess, Matrix(), counts);
-  ASSERT_EQ(first.status, PointStatus::computed);
-  const EquilibriumGuess near{first.equilibrium.x, first.equilibrium.lambda, true};
-  const PathPoint a = reduce_at(by_sparse, 2.1, near, first.basis.T[0], counts);
-  const PathPoint b = reduce_at(by_dense, 2.1, near, first.basis.T[0], counts);
-  ASSERT_EQ(a.status, PointStatus::computed);
-  ASSERT_EQ(b.status, PointStatus::computed);
-  ASSERT_TRUE(a.equilibrium.kkt.constraints().is_sparse());
-  ASSERT_FALSE(b.equilibrium.kkt.constraints().is_sparse());
-
-  EXPECT_LT((a.equilibrium.x - b.equilibrium.x).norm(), rounding * b.equilibrium.x.norm());
-  EXPECT_LT((a.equilibrium.lambda - b.equilibrium.lambda).norm(), rounding * b.equilibrium.lambda.norm());
-  EXPECT_LT((a.basis.T[0] - b.basis.T[0]).norm(), rounding);
-  EXPECT_LT(difference(a.pencil.M, b.pencil.M), rounding);
-  EXPECT_LT(difference(a.pencil.C, b.pencil.C), rounding);
-  EXPECT_LT(difference(a.pencil.K, b.pencil.K), rounding);
-}
-
 TEST_F(SparseRoute, SeriesAgreeWithTheDenseRoute) {
   const PathProblem by_sparse = problem_of(*setting.model), by_dense = problem_of(dense);
   RunCounts counts;

@@ -146,16 +146,6 @@ struct Two {
   PathFrame frame{PathRange{0, -1.0, 1.0}};
 };
 
-TEST(JudgeError, NamesTheTrackThatIsWorst) {
-  Two two;
-  const Step step = two.step(0.5);
-  const Verdict verdict = judge_error(two.family.problem(), two.frame, tolerance, step);
-  EXPECT_EQ(verdict.kind, Verdict::Kind::inaccurate);
-  EXPECT_EQ(verdict.track, 1);
-  EXPECT_EQ(verdict.error, track_error(two.family.problem(), tolerance, 0.0, step, 1));
-  EXPECT_FALSE(verdict.reason.empty());
-}
-
 TEST(JudgeError, AcceptsUpToAnErrorOfOne) {
   Two two;
   const Step step = two.step(0.5);

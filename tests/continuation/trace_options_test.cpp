@@ -86,19 +86,6 @@ TEST(TraceOptions, ChoicesOfModesThatMakeNoSenseAreRefused) {
   EXPECT_TRUE(contains(message("{ bands = [1, 2] }"), "did you mean 'band'"));
 }
 
-TEST(TraceOptions, OrderIsDescribedAsItWasGiven) {
-  const auto described = [](std::optional<int> order) {
-    TraceOptions options;
-    options.order = order;
-    for (const auto& [key, text] : describe_options(options)) {
-      if (key == "order") return text;
-    }
-    return std::string("missing");
-  };
-  EXPECT_EQ(described({}), "auto");
-  EXPECT_EQ(described(2), "2");
-}
-
 TEST(TraceOptions, NumbersAreInTheParametersUnitAndExpressionsInSi) {
   const Scene scene = parse_scene(
       "[parameters]\nspeed = { value = 10, unit = \"rpm\" }\nlimit = { value = 600, unit = \"rpm\" }\n"

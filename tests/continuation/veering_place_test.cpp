@@ -18,19 +18,6 @@ ReducedPencil squares(const Matrix& K0, const Matrix& K1, double damping = 0.0) 
   return {{Matrix::Identity(n, n)}, {C}, {K0, K1}, {}};
 }
 
-/// s^2 = -(4 +- sqrt(h^2 + e^2)).
-TEST(LocatedVeering, HasThePlaceToAllDigits) {
-  for (const double e : {1e-3, 1e-4, 1e-5}) {
-    const ReducedPencil pencil = squares(Matrix{{4.0, e}, {e, 4.0}}, Matrix{{1.0, 0.0}, {0.0, -1.0}});
-    const double apart = std::hypot(0.3 * e, e) / 4.0;
-    const auto place = located_veering(pencil, Chart::finite, {-0.01 * e, 1.01 * e},
-                                       {i * (2.0 - apart), i * (2.0 + apart)}, 0.1 * e);
-    ASSERT_TRUE(place) << e;
-    EXPECT_LT(std::abs(place->offset), 1e-9 * e);
-    EXPECT_NEAR(place->half_width, e, 1e-9 * e);
-  }
-}
-
 /// With damping of one of the two the exceptional points differ: near i (e - 2 d) and -i (e + 2 d) for s = 2
 /// i.
 TEST(LocatedVeering, IsTheNearestOfTwoThatAreNoMirrorImages) {
