@@ -25,13 +25,6 @@ std::string oscillator(const std::string& range, double c = dashpot) {
          "[[maxwell_damper]]\nfrom = [0, 0, 0]\nto = \"bob\"\nstiffness = \"k\"\ncoefficient = \"c\"\n";
 }
 
-/// The same equations in the deviation x of the bob and the elongation u of the dashpot.
-std::string same_as_matrices(const std::string& range) {
-  return "[parameters]\nm = 2\nbeside = 50\nk = 30\nc = 1.5\n[trace]\ntolerance = 1e-11\n" + range +
-         "[matrix_family]\nM = [ [[\"m\", 0], [0, 0]] ]\nC = [ [[0, 0], [0, \"c\"]] ]\n"
-         "K = [ [[\"beside + k\", \"-k\"], [\"-k\", \"k\"]] ]\n";
-}
-
 std::string range(const std::string& parameter, double from, double to) {
   return "parameter = \"" + parameter + "\"\nfrom = " + std::to_string(from) +
          "\nto = " + std::to_string(to) + "\n";
@@ -93,28 +86,6 @@ TEST_P(MaxwellDamper, AddsTheRealRootOfTheCubic) {
     const double p = i == 200 ? to : from + (to - from) * i / 200.0;
     EXPECT_LT(distance(recorded.eigenvalues_at(p), expected(parameter, p)), 1e-10) << parameter << " = " << p;
   }
-}
-
-/// No part of the element takes part in the second one: read as matrices, multiplied out by hand.
-TEST_P(MaxwellDamper, HasTheLociOfItsMatrices) {
-  const auto& [parameter, from, to] = GetParam();
-  const Setting scene = make_setting(oscillator(range(parameter, from, to)));
-  const Setting matrices = make_setting(same_as_matrices(range(parameter, from, to)));
-  const RecordedTrace recorded = record_trace(scene);
-  const PathProblem problem = matrices.problem();
-  for (const PathNode& node : recorded.nodes) {
-    RunCounts counts;
-    const PathPoint point = point_from_guess(problem, node.p, counts);
-    ComplexVector expected(static_cast<Eigen::Index>(point.pairs.size()));
-    for (std::size_t i = 0; i < point.pairs.size(); ++i)
-      expected[static_cast<Eigen::Index>(i)] = point.pairs[i].Lambda(0, 0);
-    ComplexVector found(static_cast<Eigen::Index>(node.tracks.size()));
-    for (std::size_t i = 0; i < node.tracks.size(); ++i)
-      found[static_cast<Eigen::Index>(i)] = eigenvalue(node.tracks[i]);
-    EXPECT_LT(distance(found, expected), 1e-12) << parameter << " = " << node.p;
-  }
-  const RecordedTrace other = record_trace(matrices);
-  EXPECT_EQ(other.result.n_modes, recorded.result.n_modes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parameters, MaxwellDamper,
