@@ -138,30 +138,6 @@ TEST_F(Hdf5FileTest, TextsOfAnyLengthAndScriptSurviveARoundTrip) {
   EXPECT_EQ(Hdf5File::open(path).read_texts("names"), data);
 }
 
-TEST_F(Hdf5FileTest, GrowingDatasetsTakeTheirRowsInPieces) {
-  Hdf5Writer file = Hdf5Writer::create(path);
-  file.create_dataset(growing("p", ElementType::real, {0}));
-  file.create_dataset(growing("s", ElementType::complex, {0, 2}));
-  file.create_dataset(growing("why", ElementType::text, {0}));
-  std::vector<double> p;
-  std::vector<Complex> s;
-  std::vector<std::string> why;
-  for (std::uint64_t row = 0; row < 50; ++row) {
-    const auto value = static_cast<double>(row);
-    p.push_back(value);
-    s.insert(s.end(), {{value, 1.0}, {-value, 2.0}});
-    why.push_back("step " + std::to_string(row));
-    file.write_rows("p", row, std::vector<double>{p.back()});
-    file.write_rows("s", row, std::vector<Complex>(s.end() - 2, s.end()));
-    file.write_rows("why", row, std::vector<std::string>{why.back()});
-  }
-  file.write_rows("p", 50, std::vector<double>());
-  EXPECT_EQ(file.shape("s"), (Shape{50, 2}));
-  EXPECT_EQ(read_back(file).read_real("p"), p);
-  EXPECT_EQ(read_back(file).read_complex("s"), s);
-  EXPECT_EQ(read_back(file).read_texts("why"), why);
-}
-
 /// As in the file of a short trace: what surrounds the values may not be many times as large as they are.
 TEST_F(Hdf5FileTest, GrowingDatasetsOfFewRowsTakeLittleSpace) {
   constexpr std::size_t datasets = 40;

@@ -66,44 +66,6 @@ TEST(ComplexPart, CoordinatesAreThoseOfItsVectors) {
   EXPECT_EQ(canonical_form(A), A);
 }
 
-TEST(ComplexPart, HasItsOwnEigenvaluesAboveTheRealAxis) {
-  for (const double coupling : {0.0, 0.3}) {
-    const Rotor rotor(coupling);
-    const std::vector<Complex> all = rotor.eigenvalues();
-    for (const int complex_sign : {1, -1}) {
-      std::vector<Complex> expected;
-      for (const Complex s : all) {
-        const Complex own = complex_sign > 0 ? s : std::conj(s);
-        if (own.imag() > 0.0) expected.push_back(own);
-      }
-      const ReducedPencil pencil = rotor.pencil(complex_sign);
-      for (const bool with_vectors : {true, false}) {
-        const Spectrum spectrum = with_vectors ? compute_spectrum(pencil) : compute_eigenvalues(pencil);
-        ASSERT_EQ(spectrum.status, SpectrumStatus::complete);
-        EXPECT_EQ(spectrum.n_infinite, 0);
-        std::vector<Complex> found;
-        for (const StartingMode& mode : spectrum.modes) {
-          found.push_back(mode.s);
-          const ComplexVector z = with_vectors ? mode.z : eigenvector_near(pencil, mode.s, 1e-3);
-          EXPECT_LT((PencilAtPoint(pencil).matrix(mode.s) * z).norm(), 1e-11 * pencil.K[0].norm());
-          EXPECT_LT(complex_coordinates(z, -complex_sign).norm(), 1e-14);
-        }
-        EXPECT_LT(matched_distance(found, expected), 1e-12);
-      }
-    }
-  }
-}
-
-TEST(ComplexPart, SubspaceNearAnEigenvalueIsOfThePart) {
-  const Rotor rotor(0.3);
-  const ReducedPencil pencil = rotor.pencil(1);
-  const Spectrum spectrum = compute_spectrum(pencil);
-  const InvariantPair pair = invariant_subspace(pencil, spectrum.modes[0].s, 1, false);
-  EXPECT_LT(std::abs(pair.eigenvalue() - spectrum.modes[0].s), 1e-9);
-  EXPECT_LT(PencilAtPoint(pencil).residual(pair.Z, pair.Lambda).norm(), 1e-9 * pencil.K[0].norm());
-  EXPECT_LT(complex_coordinates(pair.Z, -1).norm(), 1e-14);
-}
-
 /// At rest both halves have the same eigenvalues. The equations of the whole pair are singular there, those
 /// of one half are not.
 TEST(ComplexPart, EquationsOfAModeAreRegularWhereBothWhirlsCoincide) {

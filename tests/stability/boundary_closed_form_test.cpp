@@ -43,20 +43,6 @@ TEST(BoundaryClosedForm, InternalDampingWithAnisotropy) {
   for (const BoundaryPoint& point : curve.points) EXPECT_EQ(point.others, 0);
 }
 
-/// Ziegler's column: P = 41/28 + b^2 / 2 with s = j sqrt(2/7).
-TEST(BoundaryClosedForm, ZieglerColumn) {
-  const BoundaryResult result = ziegler_boundaries(0.01, 1.0, tolerance);
-  ASSERT_EQ(result.curves.size(), 1U);
-  const BoundaryCurve& curve = result.curves.front();
-  EXPECT_LT(
-      largest_miss(curve, places, [](const auto& at) { return at[0] - 41.0 / 28.0 - 0.5 * at[1] * at[1]; }),
-      accurate);
-  EXPECT_LT(largest_miss(curve, places, [](const auto& at) { return at[3] + 2.0 / 7.0; }), accurate);
-  const auto [low, high] = curve.extent();
-  EXPECT_DOUBLE_EQ(low[1], 0.01);
-  EXPECT_DOUBLE_EQ(high[1], 1.0);
-}
-
 /// s^2 + P s + 1: damping ratio P / 2, whatever Q; with stiffness 1 + Q / 2, P / (2 sqrt(1 + Q / 2)).
 TEST(BoundaryClosedForm, DampingRatio) {
   BoundaryRequest request = square_window();
