@@ -1,10 +1,9 @@
-// The search for branch points on a step, where traces through them do not show it: how far it looks, what it
-// takes a zero eigenvalue for, and a fold that is none.
+// The search for branch points on a step, where traces through them do not show it: how far it looks, and a
+// fold that is none.
 #include "continuation/path/branch_points.hpp"
 
 #include <gtest/gtest.h>
 
-#include "continuation/events/static_points.hpp"
 #include "continuation/on_path.hpp"
 #include "continuation/path/other_path.hpp"
 
@@ -23,10 +22,6 @@ struct Bridged : OnPath {
     std::optional<PathNode> next;
     if (with_end) next = points.follow({node, {}}, h)->node;
     return bridge_branch_point(points, frame, node, h, next ? &*next : nullptr, tries);
-  }
-  /// The point on the branch point, computed on the bridge.
-  PathNode on_it() {
-    return points.follow({node, {}}, frame.branch_point.coordinate - frame.coordinate(node))->node;
   }
   int tries = 0;
 };
@@ -65,27 +60,6 @@ TEST(BridgeBranchPoint, AFoldIsNone) {
   ASSERT_LT(before * behind.pencil.K[0](0, 0), 0.0) << "the stiffness alone would show one";
   EXPECT_FALSE(at.bridge(0.5));
   EXPECT_EQ(at.tries, 0);
-}
-
-/// The pair becomes real at s = 0 where the stiffness of the straight path vanishes.
-TEST(AsStaticEvent, AZeroEigenvalueAtABranchPointIsThatPoint) {
-  Bridged at(hanging(), 12.5);
-  ASSERT_TRUE(at.bridge(1.0));
-  const PathNode node = at.on_it();
-  Event event;
-  event.kind = EventKind::collision;
-  event.p = at.frame.branch_point.p;
-  event.modes = {0};
-  event.puiseux = 0.5;
-  EXPECT_TRUE(as_static_event(at.search, node, event).events.empty()) << "the bridge has its own event";
-  at.frame.bridge.reset();
-  const FoundEvents found = as_static_event(at.search, node, event);
-  ASSERT_EQ(found.events.size(), 1U);
-  EXPECT_EQ(found.events[0].kind, EventKind::branch_point);
-  EXPECT_EQ(found.events[0].puiseux, 0.0);
-  EXPECT_EQ(found.notes.size(), 1U);
-  event.s = 1.0;
-  EXPECT_EQ(as_static_event(at.search, node, event).events.at(0).kind, EventKind::collision) << "elsewhere";
 }
 
 TEST(EquilibriumMoves, WhereItDependsOnTheParameter) {

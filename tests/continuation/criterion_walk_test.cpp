@@ -74,29 +74,6 @@ TEST(Locate, AFlatExtremumIsRounding) {
   EXPECT_TRUE(located.found.events.empty());
 }
 
-/// c = (p - 0.1)^2 - d: two zeros at 0.1 +- sqrt(d), one that is touched, or none.
-TEST(Locate, AtATouchTellsTwoZerosFromOneAndNone) {
-  for (const double d : {1e-4, 1e-8, 0.0, -1e-6}) {
-    PlantedOscillator planted({0.01 - d, -0.2, 1.0}, {1.0});
-    const Located located =
-        locate_on(planted, planted.single(-0.1, 0.25), {flutter, true, Sought::touch}, 0.55);
-    ASSERT_TRUE(located.done);
-    const std::vector<Event>& events = located.found.events;
-    if (d > 0.0) {
-      ASSERT_EQ(events.size(), 2U) << d;
-      EXPECT_NEAR(events[0].p, 0.1 - std::sqrt(d), 1e-11);
-      EXPECT_NEAR(events[1].p, 0.1 + std::sqrt(d), 1e-11);
-      EXPECT_EQ(events[0].direction, -events[1].direction);
-    } else if (d == 0.0) {
-      ASSERT_EQ(events.size(), 1U);
-      EXPECT_NEAR(events[0].p, 0.1, 1e-10);
-      EXPECT_EQ(events[0].direction, 0);
-    } else {
-      EXPECT_TRUE(events.empty());
-    }
-  }
-}
-
 TEST(Locate, LeavesZerosOfOtherStepsToThem) {
   PlantedOscillator planted({0.2, -1.0}, {1.0});
   // A little outside: may be lost between two steps. Farther outside: found there.

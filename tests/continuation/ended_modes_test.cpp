@@ -114,24 +114,5 @@ TEST(ModeThatRunsToInfinity, LeavesTheSameModesWhereverTheTraceBegins) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(finite(far)[i], finite(near)[i], 1e-6);
 }
 
-/// One mode alone ends, too: what comes back is a complex pair.
-TEST(ModeThatRunsToInfinity, AloneComesBackAsOnePair) {
-  const RecordedTrace trace = completed_trace(make_setting(R"([trace]
-parameter = "p"
-from = 1
-to = -1
-[matrix_family]
-M = [[[1, 0], [0, 0]]]
-K = [[[1, 0.3], [0.3, 0]], [[0, 0], [0, 1]]]
-)"));
-  int finite = 0;
-  for (const Complex s : trace.eigenvalues_of_node(trace.nodes.size() - 1)) {
-    if (!std::isfinite(s.real())) continue;
-    ++finite;
-    EXPECT_NEAR(std::abs(s - std::sqrt(1.09) * j), 0.0, 1e-6);
-  }
-  EXPECT_EQ(finite, 1);
-}
-
 }  // namespace
 }  // namespace eigentrail::test::ended_modes_test

@@ -5,7 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <random>
 
 namespace eigentrail::test::exceptional_point_test {
 namespace {
@@ -135,37 +134,6 @@ TEST(ExceptionalPoint, InTheOtherChart) {
   ASSERT_TRUE(point);
   EXPECT_LT(std::abs(point->h - 0.01 * i), 1e-10);
   EXPECT_LT(std::abs(point->mu + i), 1e-3);
-}
-
-/// Among many other modes, from inaccurate places.
-TEST(ExceptionalPoint, OfTwoModesOfMany) {
-  std::mt19937_64 engine(4);
-  std::normal_distribution<double> normal;
-  const Eigen::Index n = 12;
-  const Matrix Q =
-      Matrix(Matrix::NullaryExpr(n, n, [&] { return normal(engine); })).householderQr().householderQ();
-  Vector K0(n), K1(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    K0[k] = 1.0 + 0.15 * static_cast<double>(k);
-    K1[k] = k % 2 == 0 ? 1.0 : -1.0;
-  }
-  const Matrix S = Matrix::NullaryExpr(n, n, [&] { return 0.003 * normal(engine); });
-  const ReducedPencil pencil{{Matrix::Identity(n, n)},
-                             {Q * Vector(Vector::Constant(n, 0.02)).asDiagonal() * Q.transpose()},
-                             {Q * (Matrix(K0.asDiagonal()) + S + S.transpose()) * Q.transpose(),
-                              Q * K1.asDiagonal() * Q.transpose()},
-                             {}};
-  int found = 0;
-  for (int k = 0; k + 1 < n; k += 2) {
-    // Modes k and k + 1 meet at h = (K0_(k+1) - K0_k) / 2 without coupling.
-    const double at = 0.5 * (K0[k + 1] - K0[k]);
-    const Complex mu(-0.01, std::sqrt(K0[k] + at));
-    const auto point = find_exceptional_point(pencil, Chart::finite, Complex(at, 0.004), mu, 0.05, {});
-    if (!point) continue;
-    ++found;
-    EXPECT_LT(gap_at(pencil, *point), 1e-5);
-  }
-  EXPECT_GE(found, 4);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "continuation/on_path.hpp"
 
@@ -54,40 +53,6 @@ TEST(Heading, IsTheSlopeOfPAndOnAFoldThatBesideIt) {
     EXPECT_NEAR(heading(frame, on_parabola(x, false), 0.1), -0.2, rounding);
     EXPECT_NEAR(heading(frame, on_parabola(x, false), -0.1), 0.2, rounding);
   }
-}
-
-TEST(Remaining, IsTheWayToTheEndAndToABranchPointAhead) {
-  PathFrame frame{PathRange{0, 0.0, 2.0}};
-  const PathNode node = on_parabola(0.5, true);
-  EXPECT_NEAR(remaining(frame, node), 1.25, rounding);
-  frame.bridge = Bridge();
-  frame.branch_point = {1.0, 1.0};
-  EXPECT_NEAR(remaining(frame, node), 0.25, rounding);
-  // Behind, and at the point itself, it does not count.
-  frame.branch_point = {0.5, 0.5};
-  EXPECT_NEAR(remaining(frame, node), 1.25, rounding);
-  frame.branch_point = {0.75, 0.75};
-  EXPECT_NEAR(remaining(frame, node), 1.25, rounding);
-  // Going down, what is above lies behind.
-  frame.range = {0, 2.0, 0.0};
-  frame.direction = -1.0;
-  frame.branch_point = {1.0, 1.0};
-  EXPECT_NEAR(remaining(frame, node), 0.75, rounding);
-  frame.branch_point = {0.5, 0.5};
-  EXPECT_NEAR(remaining(frame, node), 0.25, rounding);
-  EXPECT_EQ(remaining(across_x(), on_parabola(0.5, false)), std::numeric_limits<double>::max());
-}
-
-TEST(ReachedEnd, IsAtTheEndAndAtTheBeginOnTheWayBack) {
-  PathFrame frame{PathRange{0, 0.0, 0.75}};
-  EXPECT_TRUE(reached_end(frame, on_parabola(0.5, true)));
-  frame.range.to = 0.75 + 1e-12;
-  EXPECT_FALSE(reached_end(frame, on_parabola(0.5, true)));
-  // On planes with p growing until x = 0. The same p lies on both sides of the fold.
-  EXPECT_TRUE(reached_end(across_x(0.0, 0.75), on_parabola(-0.5, false)));
-  EXPECT_FALSE(reached_end(across_x(0.75, 2.0), on_parabola(-0.5, false))) << "where the trace begins";
-  EXPECT_TRUE(reached_end(across_x(0.75, 2.0), on_parabola(0.5, false)));
-  EXPECT_FALSE(reached_end(across_x(0.0, 2.0), on_parabola(0.5, false)));
 }
 
 /// A pendulum with sin(angle) = p: the series in p converge up to the fold at p = 1.

@@ -85,26 +85,6 @@ TEST(Trace, OverdampedRootsOfOneFreedomAreTwoModes) {
   }
 }
 
-TEST(Trace, StartsAtAnExceptionalPoint) {
-  // K = [[1 + p, 1/2], [-1/2, 2]]: both modes are one at p = 0, where s^2 = -3/2. Behind it
-  // s^2 = -(3 + p) / 2 +- sqrt(p (p - 2)) / 2.
-  const Setting setting = make_setting(
-      "[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\n[matrix_family]\nM = [ [[1, 0], [0, 1]] ]\n"
-      "K = [ [[1, 0.5], [-0.5, 2]], [[1, 0], [0, 0]] ]\n");
-  const RecordedTrace recorded = completed_trace(setting);
-  ASSERT_EQ(recorded.result.n_columns, 2);
-  for (int i = 1; i <= 40; ++i) {
-    const double p = i / 40.0;
-    const Complex root = std::sqrt(Complex(p * (p - 2.0)));
-    const std::vector<Complex> expected{std::sqrt(0.5 * (-3.0 - p + root)),
-                                        -std::sqrt(0.5 * (-3.0 - p - root))};
-    const ComplexVector found = recorded.eigenvalues_at(p);
-    std::vector<Complex> upper;
-    for (const Complex s : expected) upper.push_back(s.imag() < 0.0 ? std::conj(s) : s);
-    EXPECT_LT(matched_distance(upper, {found.begin(), found.end()}), 1e-6) << "at " << p;
-  }
-}
-
 TEST(Trace, ClusterThatRoundingTearsApartIsReportedAtTheStart) {
   // One Jordan chain of length eight: K = S (4 + N) S^-1 with integer S. Its eigenvalues are known only to
   // the eighth root of rounding, so their blocks cannot be determined.
