@@ -5,6 +5,7 @@
 #include "continuation/events/event_search.hpp"
 #include "continuation/planted_points.hpp"
 #include "continuation/step/step_solver.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test {
 
@@ -21,14 +22,6 @@ struct PlantedSearch {
   }
   PlantedSearch(const PlantedSearch&) = delete;
   PlantedSearch& operator=(const PlantedSearch&) = delete;
-
-  static TraceOptions options_on(double from, double to) {
-    TraceOptions options;
-    options.parameter = "p";
-    options.from = from;
-    options.to = to;
-    return options;
-  }
 
   /// The step between two points with the same tracks in the same order. `left` must outlive it.
   Step step(const PathNode& left, double to, const std::vector<Together>& tracks) {

@@ -67,7 +67,7 @@ TEST(TooSmallMessage, TellsThatConstraintsBecomeDependent) {
                     {Matrix(Vector{{1.0, 2.0, 3.0, 4.0}}.asDiagonal())},
                     {Matrix{{1.0, 0.0, 0.0, 0.0}, {std::cos(angle), std::sin(angle), 0.0, 0.0}}}});
     const PathNode node = family.point(0.0, {});
-    const std::string text = too_small_message(family.problem(), PlantedSearch::options_on(-1.0, 1.0), node,
+    const std::string text = too_small_message(family.problem(), options_on(-1.0, 1.0), node,
                                                {Verdict::Kind::no_equilibrium, -1, INFINITY, "a reason"});
     EXPECT_EQ(has(text, "constraints come to depend on each other"), angle < 1e-3) << text;
     EXPECT_EQ(has(text, "0.0001 rad"), angle < 1e-3) << text;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "eigentrail/continuation/trace.hpp"
+#include "support/traced_path.hpp"
 
 namespace eigentrail::test::force_model_test {
 namespace {
@@ -137,11 +137,7 @@ TEST(ForceModel, NumbersThatAreNotFiniteAreToldNotUsed) {
   path.x = Matrix::Constant(1, 1, -1.0);
   SteadyResidual residual;
   EXPECT_EQ(model.residual(path, 1, residual, counts).source, "the force");
-  TraceOptions options;
-  options.parameter = "p";
-  options.from = 0.0;
-  options.to = 1.0;
-  const TraceResult result = trace(model, options, {});
+  const TraceResult result = trace(model, options_on(0.0, 1.0), {});
   EXPECT_EQ(result.status, TraceStatus::no_equilibrium);
   EXPECT_FALSE(result.message.empty());
 }

@@ -111,10 +111,7 @@ MatricesAt smooth(double p) {
 
 TEST(FunctionFamily, EigenvaluesOfTheTraceAreThoseOfTheFunction) {
   const FunctionFamily family(smooth, range(0.0, 10.0, 1e-13));
-  TraceOptions options;
-  options.parameter = "p";
-  options.from = 0.0;
-  options.to = 10.0;
+  TraceOptions options = options_on(0.0, 10.0);
   options.tolerance = 1e-10;
   const auto [result, path] = trace_path(family, options);
   ASSERT_EQ(result.status, TraceStatus::completed) << result.message;
@@ -142,10 +139,7 @@ TEST(FunctionFamily, JoiningPiecesDoNotDisturbTheTrace) {
   in_pieces.breaks = {1.3, 2.9, 4.4, 5.1, 6.6, 8.2};
   const FunctionFamily many(smooth, in_pieces), few(smooth, range(0.0, 10.0, 1e-12));
   EXPECT_GE(many.pieces().size(), 7U);
-  TraceOptions options;
-  options.parameter = "p";
-  options.from = 0.0;
-  options.to = 10.0;
+  TraceOptions options = options_on(0.0, 10.0);
   options.tolerance = 1e-8;
   const TraceResult in_many = trace(many, options, {}), in_few = trace(few, options, {});
   EXPECT_EQ(in_many.status, TraceStatus::completed) << in_many.message;
@@ -156,11 +150,7 @@ TEST(FunctionFamily, JoiningPiecesDoNotDisturbTheTrace) {
 
 TEST(FunctionFamily, ResumedTracesAreTheSameBitForBit) {
   const FunctionFamily family(smooth, range(0.0, 10.0));
-  TraceOptions options;
-  options.parameter = "p";
-  options.from = 10.0;
-  options.to = 0.0;
-  EXPECT_EQ(first_resumed_difference(family, options, 4), "");
+  EXPECT_EQ(first_resumed_difference(family, options_on(10.0, 0.0), 4), "");
 }
 
 TEST(FunctionFamily, FirstOrderFormIsThatOfAMatrixFamily) {
@@ -178,11 +168,7 @@ TEST(FunctionFamily, FirstOrderFormIsThatOfAMatrixFamily) {
       },
       range(0.0, 1.0));
   EXPECT_EQ(at(without_E, 0.5).C[0].dense(), Matrix(Matrix::Identity(2, 2)));
-  TraceOptions options;
-  options.parameter = "p";
-  options.from = 0.0;
-  options.to = 1.0;
-  const TraceResult result = trace(family, options, {});
+  const TraceResult result = trace(family, options_on(0.0, 1.0), {});
   EXPECT_EQ(result.status, TraceStatus::completed) << result.message;
   EXPECT_EQ(result.n_infinite, 0);
 }
@@ -276,11 +262,7 @@ double error_at_bump(double centre, double width, double resolution) {
   options.resolution = resolution;
   const FunctionFamily family([&](double p) { return with_K(Matrix::Constant(1, 1, stiffness(p))); },
                               options);
-  TraceOptions along;
-  along.parameter = "p";
-  along.from = 0.0;
-  along.to = 1.0;
-  const auto [result, path] = trace_path(family, along);
+  const auto [result, path] = trace_path(family, options_on(0.0, 1.0));
   EXPECT_EQ(result.status, TraceStatus::completed);
   double worst = 0.0;
   for (double p = centre - 2.0 * width; p <= centre + 2.0 * width; p += 0.1 * width) {
@@ -386,11 +368,7 @@ TEST(FunctionFamily, EndsWhereItsRangeDoes) {
   EvaluationCounts counts = family.new_counts();
   Linearization result;
   EXPECT_NE(family.linearize(path, 0, result, counts).source.find("p = 0 and 1"), std::string::npos);
-  TraceOptions options;
-  options.parameter = "p";
-  options.from = 0.5;
-  options.to = 2.0;
-  const TraceResult outcome = trace(family, options, {});
+  const TraceResult outcome = trace(family, options_on(0.5, 2.0), {});
   EXPECT_NE(outcome.status, TraceStatus::completed);
   EXPECT_NE(outcome.message.find("the function family, which ends at p = 0 and 1"), std::string::npos)
       << outcome.message;

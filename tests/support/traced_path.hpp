@@ -1,4 +1,4 @@
-// A trace with the path as it is recorded.
+// The options of a trace over a range; a trace with the path as it is recorded.
 #pragma once
 
 #include "eigentrail/continuation/recorded_path.hpp"
@@ -10,6 +10,14 @@ struct TracedPath {
   TraceResult result;
   RecordedPath path;
 };
+
+inline TraceOptions options_on(double from, double to) {
+  TraceOptions options;
+  options.parameter = "p";
+  options.from = from;
+  options.to = to;
+  return options;
+}
 
 /// `most_points`: where the trace stops; 0: it does not.
 inline TracedPath trace_path(const Model& model, const TraceOptions& options, int most_points = 0) {
