@@ -2,17 +2,13 @@
 // for which it is meant.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "eigentrail/modes/symmetric_pairs.hpp"
 #include "support/scenes.hpp"
-#include "support/spectra.hpp"
 
 namespace eigentrail::test::mode_route_test {
 namespace {
 
 constexpr double agreement = 1e-10;  ///< of series coefficients, relative to one
-constexpr double dense = 1e-7;       ///< of the dense output at the tolerance 1e-8, absolute as s may vanish
 
 /// Three masses between springs that lose stiffness: s^2 = p - (2 - sqrt 2), p - 2, p - (2 + sqrt 2).
 std::string buckling(const std::string& more = "") {
@@ -95,24 +91,6 @@ TEST(ModeRoute, DampedPointsAreLeftToTheStateSpace) {
   const Computed point = compute(setting, 0.1, 0.11, ModeRoute::symmetric);
   EXPECT_TRUE(point.point.all && !point.point.symmetric);
   expect_same(compute(setting, 0.1, 0.11, ModeRoute::one_by_one).node, point.node);
-}
-
-TEST(ModeRoute, TraceThroughBucklingEqualsTheClosedForm) {
-  const RecordedTrace recorded = completed_trace(make_setting(buckling()));
-  for (const double p : {0.05, 0.5, 0.62, 1.0, 1.7, 1.99, 2.2, 2.9}) {
-    std::vector<Complex> expected, found;
-    for (const double stiffness : {2.0 - std::sqrt(2.0), 2.0, 2.0 + std::sqrt(2.0)}) {
-      const Complex s = std::sqrt(Complex(p - stiffness, 0.0));
-      expected.insert(expected.end(), {s, -s});
-    }
-    for (const Complex s : recorded.eigenvalues_at(p)) {
-      if (std::isnan(s.real())) continue;
-      found.push_back(s);
-      if (s.imag() != 0.0) found.push_back(std::conj(s));
-    }
-    ASSERT_EQ(found.size(), expected.size()) << "at " << p;
-    EXPECT_LT(matched_distance(expected, found), dense) << "at " << p;
-  }
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "scene/input_error.hpp"
 #include "support/resumed.hpp"
 #include "support/scenes.hpp"
-#include "support/spectra.hpp"
 
 namespace eigentrail::test::own_states_test {
 namespace {
@@ -50,17 +49,6 @@ double distance(const ComplexVector& found, const ComplexVector& expected) {
   for (const Complex s : expected)
     worst = std::max(worst, (found.array() - s).abs().minCoeff() / std::abs(s));
   return worst;
-}
-
-/// The eigenvalue of a track that has only one.
-Complex eigenvalue(const Track& track) {
-  return track.pair.chart == Chart::finite ? track.roots[0] : 1.0 / track.roots[0];
-}
-
-Complex nearest(const ComplexVector& all, Complex s) {
-  Eigen::Index at = 0;
-  (all.array() - s).abs().minCoeff(&at);
-  return all[at];
 }
 
 struct Traced {
@@ -163,28 +151,6 @@ TEST(OwnStates, FollowLargeDisplacements) {
     const ComplexVector expected = cubic(length * length, weight * std::sqrt(1.0 - node.p * node.p) * length,
                                          k * arm * arm, c * arm * arm);
     EXPECT_LT(distance(recorded.eigenvalues_at(node.p), expected), 1e-9) << node.p;
-  }
-}
-
-TEST(OwnStates, SensitivitiesFollowTheCubic) {
-  const Setting setting = make_setting(oscillator(range("m", 1, 3)));
-  const PathProblem problem = setting.problem();
-  RunCounts counts;
-  const PathPoint point = point_from_guess(problem, mass, counts);
-  for (const std::string name : {"k", "c"}) {
-    const auto node = differentiate_point(problem, point, setting.parameter(name), counts);
-    ASSERT_TRUE(node);
-    const double h = 1e-5;
-    const auto at = [&](double step) {
-      return cubic(mass, beside, spring + (name == "k" ? step : 0.0), dashpot + (name == "c" ? step : 0.0));
-    };
-    ASSERT_EQ(node->tracks.size(), 2U);
-    for (const Track& track : node->tracks) {
-      const Complex s = eigenvalue(track);
-      const Complex slope = track.series.Lambda[1](0, 0) * (track.pair.chart == Chart::finite ? 1.0 : -s * s);
-      const Complex expected = (nearest(at(h), s) - nearest(at(-h), s)) / (2.0 * h);
-      EXPECT_LT(std::abs(slope - expected), 1e-7 * (1.0 + std::abs(expected))) << name;
-    }
   }
 }
 

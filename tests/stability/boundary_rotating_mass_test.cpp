@@ -73,20 +73,6 @@ TEST(RotatingMassFlutter, InTheSpeed) {
   EXPECT_NEAR(flutter_of_trace({}, "20.0") / 8.41860515331042239, 1.0, 1e-9);
 }
 
-TEST(RotatingMassFlutter, InTheNormalForce) {
-  const double a_n = flutter_of_trace({{"parameter", "a_n"}, {"from", "1000"}, {"to", "20000"}});
-  const Setting setting = scene_setting("rotating_mass");
-  double low = a_n * (1.0 - 1e-4);
-  double high = a_n * (1.0 + 1e-4);
-  ASSERT_LT(spectral_abscissa(*setting.model, 40.0, low), 0.0);
-  ASSERT_GT(spectral_abscissa(*setting.model, 40.0, high), 0.0);
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (spectral_abscissa(*setting.model, 40.0, middle) > 0.0 ? high : low) = middle;
-  }
-  EXPECT_NEAR(a_n / low, 1.0, 1e-8);
-}
-
 TEST(BoundaryRotatingMass, AgreesWithAnIndependentScan) {
   const BoundarySetup setup = prepare_blade("a_n", {5.0, 200.0}, {45.0, 20000.0}, 1e-10);
   const BoundaryResult result = find_boundaries(*setup.model, setup.options);

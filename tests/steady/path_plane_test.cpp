@@ -213,29 +213,6 @@ TEST_P(PlaneThroughTruss, GivesTheLoadAndItsSeriesInClosedForm) {
 INSTANTIATE_TEST_SUITE_P(Heights, PlaneThroughTruss,
                          testing::Values(0.25, 0.2, limit_height, 0.05, 0.01, -limit_height, -0.2));
 
-/// At a fold the load has a component along the null vector of the stiffness. At a branch point it has none.
-TEST(KernelShare, TellsAFoldFromAPitchfork) {
-  OnPlane truss(von_mises_truss());
-  const PathPlane plane{Vector{{0.0, 0.0, 1.0}}, 0.0};
-  const Equilibrium fold = truss.solve(plane, Vector{{0.0, 0.0, limit_height}}, 0.003);
-  ASSERT_EQ(fold.status, SteadyStatus::converged);
-  const Path at_fold{truss.parameters(), fold.x, fold.lambda};
-  EXPECT_NEAR(kernel_share_of_parameter(*truss.setting.model, at_fold, truss.traced(), fold.linearization,
-                                        fold.kkt.constraints().null_basis(), truss.counts),
-              1.0, tolerance);
-  // The spring pendulum hangs straight down for every stiffness; at m g / length a tilted path crosses.
-  OnPlane pendulum(scene_setting("spring_pendulum"));
-  pendulum.p = m * g / length;
-  const Equilibrium straight =
-      keep_equilibrium(*pendulum.setting.model, pendulum.parameters(), Vector{{0.0, 0.0, -length}},
-                       Vector::Zero(2), pendulum.counts);
-  const Path at_pitchfork{pendulum.parameters(), straight.x, straight.lambda};
-  EXPECT_NEAR(kernel_share_of_parameter(*pendulum.setting.model, at_pitchfork, pendulum.traced(),
-                                        straight.linearization, straight.kkt.constraints().null_basis(),
-                                        pendulum.counts),
-              0.0, tolerance);
-}
-
 TEST(PathPlane, ThatThePathNeverMeetsIsReported) {
   // The bob cannot rise above its length.
   OnPlane on(pendulum());
