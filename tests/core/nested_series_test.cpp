@@ -38,16 +38,6 @@ First seeded(const S& x) {
   return variable;
 }
 
-TEST(NestedSeries, CarriesTheSeriesOfTheDerivative) {
-  const S x = series({0.6, 0.8, -0.4, 0.3, 0.1});
-  const auto f = [](const auto& t) { return sin(t) * exp(t * t) / sqrt(1.0 + t * t); };
-  const S w = 1.0 + x * x;
-  const S derivative = exp(x * x) / sqrt(w) * (cos(x) + 2.0 * x * sin(x) - x * sin(x) / w);
-  const First y = f(seeded(x));
-  expect_near(y[0], f(x));
-  expect_near(y[1], derivative);
-}
-
 TEST(NestedSeries, KnowsTheDerivativeOfEveryFunction) {
   const S x = series({0.4, 0.7, -0.3, 0.2, 0.5});
   const First t = seeded(x);
@@ -119,17 +109,6 @@ TEST(SeriesAsEigenScalar, NormOfAHelixHasItsClosedForm) {
   expect_near(r.norm(), expected);
   expect_near(r.squaredNorm(), series({a * a, 0.0, b * b}));
   expect_near(r.dot(r), series({a * a, 0.0, b * b}));
-}
-
-TEST(SeriesAsEigenScalar, CrossAndDotProductsAreThoseOfPolynomials) {
-  const S h = series({0.0, 1.0});
-  const Vector3S u(S(1.0), h, S(0.0));
-  const Vector3S v(S(0.0), S(1.0), h);
-  const Vector3S cross = u.cross(v);
-  expect_near(cross[0], series({0.0, 0.0, 1.0}), 0.0);
-  expect_near(cross[1], series({0.0, -1.0}), 0.0);
-  expect_near(cross[2], series({1.0}), 0.0);
-  expect_near(u.dot(v), series({0.0, 1.0}), 0.0);
 }
 
 TEST(SeriesAsEigenScalar, MixesWithNumbersAndNestedSeries) {

@@ -8,7 +8,6 @@
 #include "eigentrail/modes/spectrum.hpp"
 #include "scene/input_error.hpp"
 #include "steady/trims.hpp"
-#include "support/resumed.hpp"
 
 namespace eigentrail::test::rotor_trim_test {
 namespace {
@@ -270,12 +269,6 @@ TEST(RotorTrim, ExtendedResidualHasTheConditions) {
   ASSERT_FALSE(model.extended_residual(path, residual));
   EXPECT_NEAR(static_cast<double>(residual.constraint(model.n_constraints(), 0)), 0.01 * blades * lift(),
               0.01 * blades * lift());
-}
-
-TEST(RotorTrim, ResumedTraceHasTheSameBits) {
-  const Setting setting =
-      make_setting(rotor("") + traced("weight", 1000, 3000) + trim("pitch", "thrust(air) = weight"));
-  EXPECT_EQ(first_resumed_difference(*setting.model, setting.options, 3), "");
 }
 
 /// The forces of the blades across the axis cancel, so no condition there on the support determines anything.
