@@ -1,11 +1,9 @@
 #include "completeness/discrepancies.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
-
-#include "support/scenes.hpp"
+#include <utility>
 
 namespace eigentrail::test {
 namespace {
@@ -107,42 +105,29 @@ std::vector<Discrepancy> find_discrepancies(const ReferenceEvents& reference,
   return result;
 }
 
-std::string CompletenessReport::problems() const {
-  std::string text;
-  for (const Discrepancy& discrepancy : discrepancies) text += "  " + discrepancy.text + "\n";
-  for (const std::string& doubt : reference.doubts) text += "  reference in doubt: " + doubt + "\n";
-  return text;
+RecordedTrace trace_family(const RandomFamily& family) {
+  return record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}}));
 }
 
-CompletenessReport check_completeness(const RandomFamily& family, bool reversed) {
-  CompletenessReport report;
-  report.family = family;
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
-  const auto start = now();
-  report.reference = reference_events(family.matrices, family.from, family.to);
-  const auto middle = now();
+std::vector<std::string> check_completeness(const RandomFamily& family) {
+  const ReferenceEvents reference = reference_events(family.matrices, family.from, family.to);
+  std::vector<std::string> problems;
+  for (const std::string& doubt : reference.doubts) problems.push_back("reference in doubt: " + doubt);
   RandomFamily traced = family;
-  if (reversed) std::swap(traced.from, traced.to);
-  const Setting setting = make_setting(traced.scene(), {{"max_nodes", "5000"}});
-  const RecordedTrace trace = record_trace(setting);
-  report.trace_seconds = seconds(middle, now());
-  report.reference_seconds = seconds(start, middle);
-  report.completed = trace.result.status == TraceStatus::completed;
-  report.reached = trace.result.reached;
-  report.message = trace.result.message;
-  report.notes = trace.result.notes;
-  report.nodes = trace.result.nodes;
-  report.events = trace.result.events;
-  report.discrepancies =
-      find_discrepancies(report.reference, report.events, {traced.from, traced.to, report.reached});
-  if (!report.completed) {
-    std::ostringstream text;
-    text.precision(12);
-    text << "ended early at " << report.reached << ": " << report.message;
-    report.discrepancies.push_back({"ended early", report.reached, text.str()});
+  for (const char* direction : {"upward: ", "downward: "}) {
+    const TraceResult result = trace_family(traced).result;
+    for (const Discrepancy& found :
+         find_discrepancies(reference, result.events, {traced.from, traced.to, result.reached}))
+      problems.push_back(direction + found.text);
+    if (result.status != TraceStatus::completed) {
+      std::ostringstream text;
+      text.precision(12);
+      text << direction << "ended early at " << result.reached << ": " << result.message;
+      problems.push_back(text.str());
+    }
+    std::swap(traced.from, traced.to);
   }
-  return report;
+  return problems;
 }
 
 }  // namespace eigentrail::test

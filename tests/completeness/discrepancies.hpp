@@ -7,6 +7,7 @@
 #include "completeness/random_family.hpp"
 #include "completeness/reference_events.hpp"
 #include "eigentrail/continuation/event.hpp"
+#include "support/scenes.hpp"
 
 namespace eigentrail::test {
 
@@ -29,24 +30,10 @@ struct Traced {
 std::vector<Discrepancy> find_discrepancies(const ReferenceEvents& reference,
                                             const std::vector<Event>& events, const Traced& traced);
 
-struct CompletenessReport {
-  RandomFamily family;
-  ReferenceEvents reference;
-  std::vector<Event> events;
-  bool completed = false;
-  double reached = 0.0;
-  std::string message;  ///< why the trace ended early
-  std::vector<std::string> notes;
-  int nodes = 0;
-  double reference_seconds = 0.0, trace_seconds = 0.0;
-  std::vector<Discrepancy> discrepancies;  ///< with "ended early", if it did
+/// Traces all modes with the default tolerance.
+RecordedTrace trace_family(const RandomFamily& family);
 
-  bool passed() const { return discrepancies.empty() && reference.doubts.empty(); }
-  /// A line per discrepancy.
-  std::string problems() const;
-};
-
-/// Traces all modes with the default tolerance, from `to` to `from` if `reversed`, and compares.
-CompletenessReport check_completeness(const RandomFamily& family, bool reversed = false);
+/// Traces in both directions and compares. Returns what is wrong, a line each.
+std::vector<std::string> check_completeness(const RandomFamily& family);
 
 }  // namespace eigentrail::test

@@ -143,7 +143,6 @@ VeeringComparison compare_veerings(const Family& family, double from, double to,
     const bool counts = point.p.imag() > clear_of * range && point.p.imag() < 0.995 * widest * range &&
                         point.p.real() > low + 1e-6 * range && point.p.real() < high - 1e-6 * range;
     if (!counts) continue;
-    ++result.expected;
     const bool listed = std::any_of(events.begin(), events.end(), [&](const Event& event) {
       return event.kind == EventKind::veering && same(point.p, {event.p, event.half_width});
     });
@@ -151,7 +150,6 @@ VeeringComparison compare_veerings(const Family& family, double from, double to,
   }
   for (const Event& event : events) {
     if (event.kind != EventKind::veering) continue;
-    ++result.listed;
     const Complex p(event.p, event.half_width);
     const auto is_it = [&](const ExceptionalPoint& point) { return same(point.p, p); };
     if (std::any_of(found.begin(), found.end(), is_it)) continue;
@@ -160,7 +158,6 @@ VeeringComparison compare_veerings(const Family& family, double from, double to,
       const auto point = corrected(family, start, event.s);
       confirmed = confirmed || (point && same(point->p, p));
     }
-    result.overlooked += confirmed;
     if (!confirmed) result.invented.push_back(describe("invented", p, event.s));
   }
   return result;

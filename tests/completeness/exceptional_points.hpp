@@ -27,9 +27,7 @@ std::vector<ExceptionalPoint> exceptional_points(const Family& family, double fr
 std::optional<ExceptionalPoint> corrected(const Family& family, Complex p, std::optional<Complex> s = {});
 
 struct VeeringComparison {
-  int expected = 0, listed = 0;
   std::vector<std::string> missing, invented;
-  int overlooked = 0;  ///< exceptional points that only the trace has, confirmed by the correction
 };
 /// Veerings of a trace up to one percent of the range. Two exceptional points on either side of the axis that
 /// are nearly mirror images may be one veering.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "completeness/discrepancies.hpp"
 #include "support/scenes.hpp"
@@ -33,22 +32,19 @@ std::vector<Event> without(const std::vector<Event>& events, const std::vector<E
 
 }  // namespace
 
-FewModesReport check_few_modes(RandomFamily family, const std::vector<int>& numbers, bool reversed) {
-  if (reversed) std::swap(family.from, family.to);
+std::vector<std::string> check_few_modes(const RandomFamily& family, const std::vector<int>& numbers) {
   const RecordedTrace all = record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}}));
   const double range = std::abs(family.to - family.from);
-  FewModesReport report;
-  report.nodes_of_all = all.result.nodes;
+  std::vector<std::string> problems;
   for (const int modes : numbers) {
     const RecordedTrace few =
         record_trace(make_setting(family.scene(), {{"max_nodes", "5000"}, {"modes", std::to_string(modes)}}));
-    report.nodes += few.result.nodes;
     const auto problem = [&](const auto&... words) {
       std::ostringstream text;
       text.precision(12);
       text << modes << " modes: ";
       (text << ... << words);
-      report.problems.push_back(text.str());
+      problems.push_back(text.str());
     };
     if (few.result.status != TraceStatus::completed) problem("ended early: ", few.result.message);
     for (const std::string& note : few.result.notes) problem("note: ", note);
@@ -58,10 +54,10 @@ FewModesReport check_few_modes(RandomFamily family, const std::vector<int>& numb
       if (*std::min_element(event.modes.begin(), event.modes.end()) < modes)
         problem("missing: ", event_line(event));
     }
-    if (few.result.nodes > times_the_points * report.nodes_of_all + further_points)
-      problem(few.result.nodes, " points, of all modes ", report.nodes_of_all);
+    if (few.result.nodes > times_the_points * all.result.nodes + further_points)
+      problem(few.result.nodes, " points, of all modes ", all.result.nodes);
   }
-  return report;
+  return problems;
 }
 
 }  // namespace eigentrail::test

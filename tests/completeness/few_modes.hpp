@@ -8,15 +8,10 @@
 
 namespace eigentrail::test {
 
-struct FewModesReport {
-  std::vector<std::string> problems;  ///< a line each; empty if nothing is wrong
-  int nodes = 0, nodes_of_all = 0;    ///< of the traces of few modes together, and of all
-};
-
-/// Traces the slowest modes of a family, as many as each of `numbers` says, with the default tolerance, from
-/// `to` to `from` if `reversed`, and compares flutter, divergence and collisions with those of a trace of all
-/// modes, whose first ones are the same. An event of a mode that only the trace of all follows may be
-/// missing.
-FewModesReport check_few_modes(RandomFamily family, const std::vector<int>& numbers, bool reversed = false);
+/// Traces the slowest modes of a family, as many as each of `numbers` says, with the default tolerance, and
+/// compares flutter, divergence and collisions with those of a trace of all modes, whose first ones are the
+/// same. An event of a mode that only the trace of all follows may be missing. Returns what is wrong, a line
+/// each.
+std::vector<std::string> check_few_modes(const RandomFamily& family, const std::vector<int>& numbers);
 
 }  // namespace eigentrail::test

@@ -10,6 +10,7 @@
 #include "completeness/discrepancies.hpp"
 #include "completeness/exceptional_points.hpp"
 #include "properties/planted_family.hpp"
+#include "support/seeds.hpp"
 
 namespace eigentrail::test::reference_test {
 namespace {
@@ -66,25 +67,6 @@ void expect_events(const ReferenceEvents& found, const std::vector<Expected>& ex
     EXPECT_NEAR(found.events[i].p, expected[i].p, allowed);
     EXPECT_EQ(found.events[i].direction, expected[i].direction);
   }
-}
-
-TEST(ReferenceEvents, FindsFlutter) {
-  const ReferenceEvents found = events_of({{0.15, -0.5}, {2.0}});
-  expect_events(found, {{"flutter", 0.3, 1}});
-  EXPECT_NEAR(found.events[0].s.imag(), std::sqrt(2.0), 1e-10);
-  EXPECT_TRUE(found.touching.empty());
-}
-
-TEST(ReferenceEvents, FindsDivergence) {
-  expect_events(events_of({{1.0}, {-0.2, -0.5}}), {{"divergence", -0.4, 1}});
-  expect_events(events_of({{-1.0}, {-0.2, -0.5}}), {{"divergence", -0.4, -1}});
-}
-
-TEST(ReferenceEvents, FindsRealCollision) {
-  const ReferenceEvents found = events_of({{1.0}, {1.0 - 0.125, 0.5}});
-  expect_events(found, {{"collision", 0.25, 0}});
-  EXPECT_NEAR(found.events[0].s.real(), -1.0, 1e-5);
-  EXPECT_EQ(found.events[0].s.imag(), 0.0);
 }
 
 /// a (p - p1) (p - p2).
@@ -184,11 +166,9 @@ TEST_P(PlantedVeerings, AreFound) {
 }
 
 /// In seeds 7 and 18 other eigenvalues are closer to each other than those that veer.
-INSTANTIATE_TEST_SUITE_P(Seeds, PlantedVeerings, testing::Values(1, 2, 3, 7, 11, 18),
-                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Seeds, PlantedVeerings, testing::Values(1, 2, 3, 7, 11, 18), seed_name);
 
-INSTANTIATE_TEST_SUITE_P(Seeds, PlantedReference, testing::Range(1, 21),
-                         [](const auto& tested) { return "seed_" + std::to_string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Seeds, PlantedReference, first_seeds(20), seed_name);
 
 TEST(ExceptionalPoints, AreFoundAndCompared) {
   // Two oscillators with stiffness 2 + p and 2 - p and coupling e: exceptional points at p = e j and -e j.

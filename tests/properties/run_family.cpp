@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <set>
 #include <sstream>
 
 #include "properties/place_rounding.hpp"
@@ -29,22 +28,6 @@ std::vector<double> label_parameters(const HardCase& hard_case) {
   parameters.push_back(0.5 * (last + high));
   std::sort(parameters.begin(), parameters.end());
   return parameters;
-}
-
-void count_kinds(const HardCase& hard_case, const RecordedTrace& trace, FamilyReport& report) {
-  for (std::size_t i = 0; i < hard_case.special.size(); ++i) {
-    const SpecialPoint& point = hard_case.special[i];
-    const bool found = report.events.event_of[i] >= 0;
-    const bool counts = found || !is_wide_veering(hard_case, point);
-    report.kinds[point.kind].planted += counts;
-    report.kinds[point.kind].found += found;
-  }
-  std::set<int> used(report.events.event_of.begin(), report.events.event_of.end());
-  for (std::size_t i = 0; i < trace.result.events.size(); ++i) {
-    const bool counts = trace.result.events[i].kind != EventKind::extremum;
-    if (counts && used.count(static_cast<int>(i)) == 0)
-      ++report.kinds[event_name(trace.result.events[i].kind)].invented;
-  }
 }
 
 /// Whether the eigenvalue may belong to one of the blocks: no other block has one that is clearly nearer.
@@ -86,19 +69,6 @@ std::vector<std::string> wrong_modes(const PlantedFamily& family, const Recorded
 
 }  // namespace
 
-std::vector<std::string> FamilyReport::failures() const {
-  std::vector<std::string> result;
-  if (!completed) result.push_back("ended");
-  if (!(accuracy.worst_error <= allowed_error)) result.push_back("error");
-  if (labels.wrong > 0) result.push_back("labels");
-  if (!wrong_modes.empty()) result.push_back("modes of events");
-  for (const auto& [kind, count] : kinds) {
-    if (count.found < count.planted) result.push_back("missing " + kind);
-    if (count.invented > 0) result.push_back("invented " + kind);
-  }
-  return result;
-}
-
 std::string FamilyReport::problems() const {
   std::ostringstream text;
   text.precision(4);
@@ -135,19 +105,14 @@ FamilyReport run_family(const PlantedFamily& family, const RunSetting& setting) 
   for (SpecialPoint& point : hard_case.special) point.rounding = place_rounding(family.matrices, point);
   const RecordedTrace trace = trace_case(hard_case, setting);
   FamilyReport report;
-  report.setting = setting;
   report.completed = trace.result.status == TraceStatus::completed;
   report.message = trace.result.message;
-  report.nodes = trace.result.nodes;
-  const auto mode_steps = static_cast<double>(std::max(1L, trace.result.mode_steps));
-  report.certified_share = static_cast<double>(trace.result.certified_steps) / mode_steps;
   if (trace.steps.empty()) return report;
   std::vector<Sample> samples;
   for (const double p : sample_parameters(hard_case, random_samples))
     samples.push_back(sample_at(hard_case, p));
   report.accuracy = measure_accuracy(samples, trace, setting.tolerance);
   report.events = compare_events(hard_case, trace, setting.tolerance);
-  count_kinds(hard_case, trace, report);
   report.wrong_modes = wrong_modes(family, trace, report.events);
   std::vector<LabelledPlace> labelled;
   for (const double p : label_parameters(hard_case)) labelled.push_back({p, family.labelled(p)});
