@@ -148,13 +148,13 @@ std::size_t n_distinct(const std::vector<Complex>& modes) {
 using ModesAt = std::function<std::vector<Complex>(double)>;
 
 /// Follows the labels that stand on the modes at the first grid point within [low, high] through that
-/// stretch; from the second one if modes coincide at the first.
-void compare(const LabelledLoci& loci, double low, double high, const ModesAt& modes, WrongLabels& count) {
+/// stretch; from the second one if modes coincide at the first. Counts those that are on another mode.
+int wrong_tracks(const LabelledLoci& loci, double low, double high, const ModesAt& modes) {
   std::vector<std::size_t> points;
   for (std::size_t k = 0; k < loci.p.size(); ++k) {
     if (loci.p[k] >= low && loci.p[k] <= high) points.push_back(k);
   }
-  if (points.size() < 2) return;
+  if (points.size() < 2) return 0;
   const bool coincide = n_distinct(modes(loci.p[points[0]])) < n_distinct(modes(loci.p[points[1]]));
   const std::size_t start = coincide ? 1 : 0;
   const auto label_of = labels_on(modes(loci.p[points[start]]), loci.s[points[start]]);
@@ -162,14 +162,10 @@ void compare(const LabelledLoci& loci, double low, double high, const ModesAt& m
   for (std::size_t k = start + 1; k < points.size(); ++k) {
     const std::vector<Complex> reference = modes(loci.p[points[k]]);
     for (std::size_t i = 0; i < reference.size(); ++i) {
-      ++count.points;
-      if (!on_another_mode(loci.s[points[k]][label_of[i]], i, reference)) continue;
-      ++count.wrong_points;
-      wrong[i] = true;
+      if (on_another_mode(loci.s[points[k]][label_of[i]], i, reference)) wrong[i] = true;
     }
   }
-  count.tracks += static_cast<int>(wrong.size());
-  count.wrong_tracks += static_cast<int>(std::count(wrong.begin(), wrong.end(), true));
+  return static_cast<int>(std::count(wrong.begin(), wrong.end(), true));
 }
 
 }  // namespace
@@ -215,24 +211,19 @@ LabelledLoci carry_labels(const GridSpectra& spectra, Carrier carrier) {
   return loci;
 }
 
-WrongLabels count_wrong_labels(const HardCase& hard_case, const LabelledLoci& loci) {
-  if (!hard_case.has_branches) return count_wrong_labels(reference_labels(hard_case), loci);
-  WrongLabels count;
-  const ModesAt branches = [&](double p) {
-    std::vector<Complex> modes;
-    for (const auto& branch : hard_case.branches) modes.push_back(branch(p));
-    return modes;
-  };
-  compare(loci, std::min(hard_case.from, hard_case.to), std::max(hard_case.from, hard_case.to), branches,
-          count);
-  return count;
-}
-
-WrongLabels count_wrong_labels(const std::vector<LabelledStretch>& reference, const LabelledLoci& loci) {
-  WrongLabels count;
-  for (const LabelledStretch& stretch : reference) {
+int count_wrong_tracks(const HardCase& hard_case, const LabelledLoci& loci) {
+  if (hard_case.has_branches) {
+    const auto [low, high] = std::minmax(hard_case.from, hard_case.to);
+    return wrong_tracks(loci, low, high, [&](double p) {
+      std::vector<Complex> modes;
+      for (const auto& branch : hard_case.branches) modes.push_back(branch(p));
+      return modes;
+    });
+  }
+  int count = 0;
+  for (const LabelledStretch& stretch : reference_labels(hard_case)) {
     // Loci on a grid of the parameter stay on the branch they started on.
-    if (stretch.branch() == 0) compare(loci, stretch.low(), stretch.high(), stretch, count);
+    if (stretch.branch() == 0) count += wrong_tracks(loci, stretch.low(), stretch.high(), stretch);
   }
   return count;
 }

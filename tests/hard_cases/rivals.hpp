@@ -47,19 +47,10 @@ GridSpectra spectra_on_grid(const HardCase& hard_case, int n_points);
 /// Carries the labels. One O(n^3) assignment per point.
 LabelledLoci carry_labels(const GridSpectra& spectra, Carrier carrier);
 
-struct WrongLabels {
-  int tracks = 0;        ///< modes followed, summed over the stretches between coincidences
-  int wrong_tracks = 0;  ///< of them, those that are on another mode somewhere
-  int points = 0;        ///< pairs of mode and parameter compared
-  int wrong_points = 0;  ///< of them, those on another mode
-};
-
+/// How many tracks are on another mode somewhere, counted once for each stretch between coincidences.
 /// Compares loci with the case's analytic branches, which run through crossings, or where it has none with
-/// its reference labels, stretch by stretch. Conjugates are the same mode. A label counts as wrong where
-/// another mode is at least twice as close to it as its own and the two modes are apart.
-WrongLabels count_wrong_labels(const HardCase& hard_case, const LabelledLoci& loci);
-
-/// The same with reference labels that are already there.
-WrongLabels count_wrong_labels(const std::vector<LabelledStretch>& reference, const LabelledLoci& loci);
+/// its reference labels. Conjugates are the same mode. A label counts as wrong where another mode is at least
+/// twice as close to it as its own and the two modes are apart.
+int count_wrong_tracks(const HardCase& hard_case, const LabelledLoci& loci);
 
 }  // namespace eigentrail::test

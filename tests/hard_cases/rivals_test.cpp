@@ -55,7 +55,7 @@ int wrong_tracks(const std::string& name, int n_points, Carrier carrier) {
   const HardCase& c = hard_case(name);
   const LabelledLoci loci = carry_labels(spectra_on_grid(c, n_points), carrier);
   EXPECT_TRUE(loci.complete);
-  return count_wrong_labels(c, loci).wrong_tracks;
+  return count_wrong_tracks(c, loci);
 }
 
 constexpr Carrier carriers[] = {Carrier::nearest, Carrier::assignment, Carrier::assurance};

@@ -99,22 +99,29 @@ RecordedTrace trace_case(const HardCase& hard_case, const RunSetting& setting, c
   return trace_back(scene, there != nullptr ? *there : record_trace(scene));
 }
 
+std::string CaseReport::problems() const {
+  std::string text;
+  if (!completed) text += "ended early: " + message + "; ";
+  if (worst_error > 4.0)
+    text += "error " + std::to_string(worst_error) + " tolerances at " + std::to_string(worst_at) + "; ";
+  if (most_retrackings > 4) text += std::to_string(most_retrackings) + " points for one event; ";
+  if (wrong_labels > 0) text += std::to_string(wrong_labels) + " wrong labels; ";
+  for (const std::string& event : missing) text += "missing " + event + "; ";
+  for (const std::string& event : invented) text += "invented " + event + "; ";
+  return text;
+}
+
 CaseReport check_case(const CaseReference& reference, const RecordedTrace& trace, double tolerance) {
   const HardCase& hard_case = *reference.hard_case;
   CaseReport report;
   report.completed = trace.result.status == TraceStatus::completed;
   report.message = trace.result.message;
   report.nodes = trace.result.nodes;
-  const auto steps = static_cast<double>(std::max(1L, trace.result.mode_steps));
-  report.lu_per_mode_step = static_cast<double>(trace.result.counts.modes.factorizations) / steps;
-  report.uncertified_share = 1.0 - static_cast<double>(trace.result.certified_steps) / steps;
   if (trace.steps.empty()) return report;
   const Accuracy accuracy = measure_accuracy(reference.samples, trace, tolerance);
   report.worst_error = accuracy.worst_error;
   report.worst_at = accuracy.worst_at;
   const EventComparison events = compare_events(hard_case, trace, tolerance);
-  report.expected_events = events.expected;
-  report.found_events = events.found;
   report.missing = events.missing;
   report.invented = events.invented;
   for (const Event& event : trace.result.events) {
@@ -123,7 +130,6 @@ CaseReport check_case(const CaseReference& reference, const RecordedTrace& trace
   }
   LabelCount labels;
   for (const auto& [branch, places] : reference.labels) count_labels(trace, places, branch, labels);
-  report.labels = labels.labels;
   report.wrong_labels = labels.wrong;
   return report;
 }

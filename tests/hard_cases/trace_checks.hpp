@@ -28,12 +28,7 @@ struct Accuracy {
 /// relative to the size of the block's eigenvalues.
 Accuracy measure_accuracy(const std::vector<Sample>& samples, const RecordedTrace& trace, double tolerance);
 
-/// Whether a veering is so wide that it need not be an event: beyond one percent of the range.
-bool is_wide_veering(const HardCase& hard_case, const SpecialPoint& special);
-
 struct EventComparison {
-  int expected = 0;
-  int found = 0;
   std::vector<std::string> missing, invented;
   /// Per special point of the case: the index of its event, -1 without one.
   std::vector<int> event_of;
