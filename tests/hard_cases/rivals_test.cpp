@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hard_cases/reference_labels.hpp"
+
 namespace eigentrail::test::rivals_test {
 namespace {
 
@@ -53,8 +55,8 @@ TEST(ReferenceLabelsOutside, AreRefused) {
 
 int wrong_tracks(const std::string& name, int n_points, Carrier carrier) {
   const HardCase& c = hard_case(name);
-  const LabelledLoci loci = carry_labels(spectra_on_grid(c, n_points), carrier);
-  EXPECT_TRUE(loci.complete);
+  const GridLoci loci = loci_on_grid(c, n_points, carrier);
+  EXPECT_TRUE(loci.completed) << loci.message;
   return count_wrong_tracks(c, loci);
 }
 
@@ -83,7 +85,7 @@ TEST(Rivals, MislabelARotorOnFourHundredPoints) {
 }
 
 TEST(Rivals, ReportWhereTheEquilibriumEnds) {
-  EXPECT_FALSE(spectra_on_grid(hard_case("C05_pushed_pendulum"), 60).complete);
+  EXPECT_FALSE(loci_on_grid(hard_case("C05_pushed_pendulum"), 60, Carrier::assurance).completed);
 }
 
 }  // namespace
