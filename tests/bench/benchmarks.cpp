@@ -13,7 +13,6 @@ const std::vector<Benchmark>& benchmarks() {
                                           {"order", order},
                                           {"order_choice", order_choice},
                                           {"physics", physics},
-                                          {"absent_effects", absent_effects},
                                           {"symmetric", symmetric},
                                           {"growth", growth},
                                           {"chains", chains},

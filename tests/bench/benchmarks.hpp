@@ -49,8 +49,6 @@ Figures largest_models(const BenchOptions& options);
 Figures crossover(const BenchOptions& options);
 // physics_bench.cpp
 Figures physics(const BenchOptions& options);
-// effects_bench.cpp
-Figures absent_effects(const BenchOptions& options);
 
 /// All benchmarks, in the order of the table.
 const std::vector<Benchmark>& benchmarks();

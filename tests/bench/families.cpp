@@ -50,19 +50,12 @@ Setting setting_of(const Family& family, const OptionTexts& overrides) {
   return make_setting(family_case("benchmark", "", 0.0, 1.0, family, {}).scene, overrides);
 }
 
-struct ChainEffect {
-  std::string name, tables;
-};
-
-const std::vector<ChainEffect>& chain_tables() {
-  static const std::vector<ChainEffect> all{
-      {"spring", "[[spring]]\nfrom = [2, 0, -1]\nto = \"p2\"\nstiffness = 20\nfree_length = 1\n"},
-      {"guided_spring", "[[guided_spring]]\npoint = \"p3\"\ndirection = [1, 0, 0]\nstiffness = 5\n"},
-      {"drag", "[[drag]]\npoint = \"p1\"\ncoefficient = 0.1\n[[drag]]\npoint = \"p4\"\ncoefficient = 0.2\n"},
-      {"force", "[[force]]\npoint = \"p4\"\ncomponents = [2, 0, 0]\n"},
-      {"follower_force", "[[follower_force]]\npoint = \"p4\"\nfrom = \"p3\"\nto = \"p4\"\nmagnitude = 3\n"}};
-  return all;
-}
+constexpr const char* chain_effects =
+    "[[spring]]\nfrom = [2, 0, -1]\nto = \"p2\"\nstiffness = 20\nfree_length = 1\n"
+    "[[guided_spring]]\npoint = \"p3\"\ndirection = [1, 0, 0]\nstiffness = 5\n"
+    "[[drag]]\npoint = \"p1\"\ncoefficient = 0.1\n[[drag]]\npoint = \"p4\"\ncoefficient = 0.2\n"
+    "[[force]]\npoint = \"p4\"\ncomponents = [2, 0, 0]\n"
+    "[[follower_force]]\npoint = \"p4\"\nfrom = \"p3\"\nto = \"p4\"\nmagnitude = 3\n";
 
 std::string chain(int points) {
   std::string text =
@@ -94,21 +87,8 @@ Setting undamped_family(int n, unsigned seed, const OptionTexts& overrides) {
   return setting_of(undamped(n, close, engine), overrides);
 }
 
-Setting chain_without(const std::string& effect) {
-  std::string text = chain(4);
-  for (const ChainEffect& other : chain_tables()) {
-    if (other.name != effect) text += other.tables;
-  }
-  return make_setting(text);
-}
-
-const std::vector<std::string>& chain_effects() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const ChainEffect& effect : chain_tables()) list.push_back(effect.name);
-    return list;
-  }();
-  return names;
+Setting hanging_chain() {
+  return make_setting(chain(4) + chain_effects);
 }
 
 }  // namespace eigentrail::test

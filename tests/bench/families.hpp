@@ -18,11 +18,8 @@ Setting gyroscopic_family(int n, unsigned seed, const OptionTexts& overrides, do
 /// The same without C, neighbours close.
 Setting undamped_family(int n, unsigned seed, const OptionTexts& overrides);
 
-/// A planar chain of rods and points that hangs in gravity while its upper rod grows from 1 to 1.5 m, without
-/// the effect of that name ("" leaves out none).
-Setting chain_without(const std::string& effect);
-
-/// The effects that can be left out.
-const std::vector<std::string>& chain_effects();
+/// A planar chain of four rods and points with springs, drag and forces that hangs in gravity while its upper
+/// rod grows from 1 to 1.5 m.
+Setting hanging_chain();
 
 }  // namespace eigentrail::test

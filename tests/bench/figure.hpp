@@ -1,4 +1,4 @@
-// A measured figure beside its target, and the suite's two outputs: a table and JSON.
+// A measured figure beside its target, and the suite's table.
 #pragma once
 
 #include <iosfwd>
@@ -24,17 +24,12 @@ struct Figure {
   double value = 0.0;                 ///< a ratio, an exponent or a count
   std::optional<Target> target = {};  ///< none: measured for the record
   std::string detail = {};            ///< what the value was computed from
-  std::string benchmark = {};         ///< name of the benchmark it belongs to
 
   bool reached() const;  ///< true without a target
 };
 
 /// Markdown: the head of the table, and one line per figure.
 void write_table_head(std::ostream& out);
-void write_table_lines(const std::vector<Figure>& figures, std::ostream& out);
-
-/// {"figures": [{"benchmark", "quantity", "value", "target", "sense", "reached", "detail"}, ...]}; a value
-/// that is not finite is null.
-void write_json(const std::vector<Figure>& figures, bool smoke, std::ostream& out);
+void write_table_lines(const std::string& benchmark, const std::vector<Figure>& figures, std::ostream& out);
 
 }  // namespace eigentrail::test

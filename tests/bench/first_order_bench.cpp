@@ -93,28 +93,26 @@ Pair pair_of(const Kind& kind, int n, unsigned seed) {
           make_setting(family_scene(family, 0.0, kind.to))};
 }
 
-double seconds_per_point(const Setting& setting, bool certify, int& points) {
+double seconds_per_point(const Setting& setting, int& points) {
   TraceOptions options = setting.options;
   options.tolerance = first_order_tolerance;
-  options.certify = certify;
   const TimedTrace timed = time_trace(setting, options);
   points = static_cast<int>(timed.result.nodes);
   return timed.follow_seconds / std::max(1, points - 1);
 }
 
 /// The ratio for one pair, as the median of the rounds' ratios.
-Figure ratio_of(const Kind& kind, int n, unsigned seed, bool certify, const BenchOptions& options) {
+Figure ratio_of(const Kind& kind, int n, unsigned seed, const BenchOptions& options) {
   const Pair pair = pair_of(kind, n, seed);
   Rounds rounds;
   int first_points = 0, second_points = 0;
   for (int i = 0; i < options.repeats; ++i) {
-    const double second = seconds_per_point(pair.second, certify, second_points);
-    rounds.add({seconds_per_point(pair.first, certify, first_points), second});
+    const double second = seconds_per_point(pair.second, second_points);
+    rounds.add({seconds_per_point(pair.first, first_points), second});
   }
   return {"first order of " + std::to_string(2 * n) + " states / second order of " + std::to_string(n) +
-              ", all modes, time per point, certificate " + (certify ? "on" : "off") + ", " + kind.name +
-              ", seed " + std::to_string(seed),
-          rounds.ratio(0, 1), certify ? std::optional(at_most(largest_ratio)) : std::nullopt,
+              ", all modes, time per point, " + kind.name + ", seed " + std::to_string(seed),
+          rounds.ratio(0, 1), at_most(largest_ratio),
           time_text(rounds.seconds(0)) + ", " + std::to_string(first_points) + " points / " +
               time_text(rounds.seconds(1)) + ", " + std::to_string(second_points) + " points"};
 }
@@ -126,10 +124,7 @@ Figures first_order(const BenchOptions& options) {
   const unsigned seeds = options.smoke ? 1 : 4;
   Figures figures;
   for (const Kind& kind : kinds()) {
-    for (const bool certify : {true, false}) {
-      for (unsigned seed = 1; seed <= seeds; ++seed)
-        figures.push_back(ratio_of(kind, n, seed, certify, options));
-    }
+    for (unsigned seed = 1; seed <= seeds; ++seed) figures.push_back(ratio_of(kind, n, seed, options));
   }
   return figures;
 }

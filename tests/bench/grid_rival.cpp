@@ -2,35 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
+#include "accuracy/grid_interpolant.hpp"
+#include "accuracy/grid_loci.hpp"
 #include "bench/shift_invert.hpp"
-#include "bench/spline.hpp"
 #include "bench/timing.hpp"
-#include "core/lapack.hpp"
-#include "hard_cases/rivals.hpp"
 
 namespace eigentrail::test {
 namespace {
 
-ComplexMatrix to_matrix(const std::vector<std::vector<Complex>>& rows) {
-  ComplexMatrix values(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows[0].size()));
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    const auto& row = rows[static_cast<std::size_t>(i)];
-    values.row(i) = Eigen::Map<const ComplexVector>(row.data(), values.cols()).transpose();
-  }
-  return values;
-}
-
 double spline_error(const Recording& exact, const TraceOptions& range, const std::vector<double>& tests,
                     const ComplexMatrix& at_tests, int points) {
-  const CubicSpline spline(sample(exact.path, parameters_on(range, points)));
+  const ComplexMatrix on_grid = sample(exact.path, parameters_on(range, points));
+  const GridInterpolant spline(range.from, (range.to - range.from) / (points - 1),
+                               {on_grid.rowwise().begin(), on_grid.rowwise().end()},
+                               Interpolation::cubic_spline);
   ComplexMatrix values(at_tests.rows(), at_tests.cols());
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    const double part = (tests[static_cast<std::size_t>(i)] - range.from) / (range.to - range.from);
-    values.row(i) = spline(part * (points - 1)).transpose();
-  }
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    values.row(i) = spline(tests[static_cast<std::size_t>(i)]).transpose();
   return largest_error(values, at_tests, exact.s_ref);
 }
 
@@ -82,35 +72,10 @@ int points_for_spline(const Recording& exact, const TraceOptions& range, const s
 RivalTime time_grid(const Setting& setting, const TraceOptions& range, int points, int most) {
   const int measured = std::min(points, most);
   const double seconds = seconds_of([&] {
-    const GridSpectra spectra = spectra_on_grid(setting, range.from, range.to, measured);
-    const LabelledLoci loci = carry_labels(spectra, Carrier::assurance);
-    const CubicSpline spline(to_matrix(loci.s));
+    const GridLoci loci = qz_grid(setting.problem(), parameters_on(range, measured), range.modes);
+    const GridInterpolant spline(range.from, loci.p[1] - loci.p[0], loci.s, Interpolation::cubic_spline);
   });
   return {seconds * points / measured, measured};
-}
-
-double saved_by_qr(const Setting& setting, double p) {
-  const ReducedPencil pencil = pencil_at(setting, p);
-  const Eigen::Index n = pencil.size();
-  const auto size = static_cast<lapack_int>(2 * n);
-  Matrix right(2 * n, 2 * n);
-  Vector real(2 * n), imag(2 * n), beta(2 * n);
-  Matrix A = Matrix::Zero(2 * n, 2 * n), E = Matrix::Identity(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.bottomLeftCorner(n, n) = -pencil.K[0];
-  A.bottomRightCorner(n, n) = -pencil.C[0];
-  E.bottomRightCorner(n, n) = pencil.M[0];
-  const double qz = median_seconds(1, [&] {
-    Matrix a = A, e = E;
-    LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', size, a.data(), size, e.data(), size, real.data(), imag.data(),
-                  beta.data(), nullptr, 1, right.data(), size);
-  });
-  const double qr = median_seconds(1, [&] {
-    Matrix a = E.lu().solve(A);
-    LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', size, a.data(), size, real.data(), imag.data(), nullptr, 1,
-                  right.data(), size);
-  });
-  return qz - qr;
 }
 
 ArnoldiTime time_arnoldi(const Setting& setting, const TraceOptions& range, const Recording& exact,

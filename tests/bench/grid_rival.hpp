@@ -21,10 +21,6 @@ struct RivalTime {
 /// next, a spline at the end. At most `most` points are computed.
 RivalTime time_grid(const Setting& setting, const TraceOptions& range, int points, int most);
 
-/// The same with QR on the standard companion matrix (LAPACK's dgeev) in place of QZ, which needs a regular
-/// mass: the time per point that it saves, negative where QZ is faster.
-double saved_by_qr(const Setting& setting, double p);
-
 /// Shift-and-invert Arnoldi about the mean of the followed modes at every point; no matching, one cluster.
 /// As many Arnoldi steps as the modes need at the range's beginning for an accuracy `accuracy`.
 struct ArnoldiTime : RivalTime {

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "bench/benchmarks.hpp"
+#include "bench/grid_rival.hpp"
 #include "bench/memory.hpp"
-#include "bench/spline.hpp"
 #include "bench/text.hpp"
 #include "bench/timing.hpp"
 #include "core/sparse_factors.hpp"
@@ -39,12 +39,11 @@ struct Run {
   RecordedTrace trace;
 };
 
-Run project_and_trace(const TraceSetup& setup, double tight = traced_tolerance) {
+Run project_and_trace(const TraceSetup& setup) {
   Run run;
   Setting setting;
   setting.scene = setup.scene;
   setting.options = setup.options;
-  setting.options.tolerance = tight;
   run.seconds = seconds_of([&] {
     auto model = projected_family(setup, setting.options);
     run.projection = *model->projection();
@@ -72,27 +71,15 @@ double peak_of_the_program() {
   return peak_of_projection_and_trace(small);
 }
 
-/// Equally spaced points that a spline through exact, labelled eigenvalues needs for `spline_error`, relative
-/// to the eigenvalue. The exact ones are a trace with a tolerance of a hundredth of that.
+/// Equally spaced points that a spline through exact, labelled eigenvalues needs for `spline_error`. The
+/// exact ones are a trace with a tolerance of a hundredth of that.
 int points_of_spline(const TraceSetup& setup) {
-  const RecordedTrace exact = project_and_trace(setup, 0.01 * spline_error).trace;
-  const double from = setup.options.from, length = setup.options.to - from;
-  constexpr int probes = 400;
-  for (int points = 51; points < 20000; points = points * 5 / 4) {
-    ComplexMatrix values(points, followed);
-    for (int i = 0; i < points; ++i)
-      values.row(i) = exact.eigenvalues_at(from + length * i / (points - 1)).head(followed).transpose();
-    const CubicSpline spline(values);
-    double worst = 0.0;
-    for (int i = 0; i < probes; ++i) {
-      const double share = (i + 0.37) / probes;
-      const ComplexVector s = exact.eigenvalues_at(from + length * share).head(followed);
-      worst = std::max(
-          worst, ((spline(share * (points - 1)) - s).cwiseAbs().array() / s.cwiseAbs().array()).maxCoeff());
-    }
-    if (worst <= spline_error) return points;
-  }
-  return 20000;
+  Setting projected;
+  projected.options = setup.options;
+  projected.options.tolerance = 0.01 * spline_error;
+  projected.model = projected_family(setup, projected.options);
+  return points_for_spline(record(projected, projected.options), setup.options,
+                           parameters_on(setup.options, 400, 0.37), spline_error);
 }
 
 /// CPU time of the modes at one point of the grid: the mean of a few points.
@@ -159,32 +146,20 @@ struct Peaks {
         factorization(of_one_factorization(setup, [](auto factor) { return peak_bytes_of(factor); })) {}
 };
 
-/// What is measured at one size.
-struct AtSize {
-  double freedoms = 0.0, seconds = 0.0, factorization = 0.0;
+/// What is measured at the sizes of a kind of models.
+struct Sizes {
+  std::vector<double> freedoms, seconds, factorizations;
 };
 
-/// Slope of a straight line through the logarithms of times over those of sizes.
-double exponent(const std::vector<AtSize>& sizes, double AtSize::*seconds) {
-  const auto count = static_cast<Eigen::Index>(sizes.size());
-  Vector x(count), y(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    x[i] = std::log(sizes[static_cast<std::size_t>(i)].freedoms);
-    y[i] = std::log(sizes[static_cast<std::size_t>(i)].*seconds);
-  }
-  x.array() -= x.mean();
-  return x.dot(y) / x.squaredNorm();
-}
-
-void add_growth(const std::string& what, const std::vector<AtSize>& sizes, Figures& figures) {
-  const double one = exponent(sizes, &AtSize::factorization);
-  figures.push_back({"exponent of time over size, " + what, exponent(sizes, &AtSize::seconds), at_most(one),
+void add_growth(const std::string& what, const Sizes& sizes, Figures& figures) {
+  figures.push_back({"exponent of time over size, " + what, exponent(sizes.freedoms, sizes.seconds),
+                     at_most(exponent(sizes.freedoms, sizes.factorizations)),
                      "that of one factorization is the target"});
 }
 
 /// `points`: of the spline.
-AtSize measure(const TraceSetup& setup, const std::string& what, int points, const Peaks& peaks,
-               Figures& figures) {
+void measure(const TraceSetup& setup, const std::string& what, int points, const Peaks& peaks, Sizes& sizes,
+             Figures& figures) {
   const Run run = project_and_trace(setup);
   const double per_point = seconds_per_point(setup);
   const double one = of_one_factorization(setup, [](auto factor) { return seconds_of(factor); });
@@ -215,12 +190,15 @@ AtSize measure(const TraceSetup& setup, const std::string& what, int points, con
                      from_two_thousand(5.0)});
   const double allowed = 1.5 * peaks.factorization + vectors;
   figures.push_back(
-      {"peak memory / (1.5 factorizations + matrices and vectors)" + size, peaks.run / allowed, {}, memory});
-  figures.push_back({"peak memory beyond that of a model of 200 freedoms / the same" + size,
-                     (peaks.run - peaks.program) / allowed, at_most(1.0)});
+      {"peak memory beyond that of a model of 200 freedoms / (1.5 factorizations + matrices and "
+       "vectors)" +
+           size,
+       (peaks.run - peaks.program) / allowed, at_most(1.0), memory});
   figures.push_back({"error / tolerance at 20 random places" + size,
                      error(setup, run.trace, 20) / traced_tolerance, at_most(1.0)});
-  return {static_cast<double>(n), run.seconds, one};
+  sizes.freedoms.push_back(static_cast<double>(n));
+  sizes.seconds.push_back(run.seconds);
+  sizes.factorizations.push_back(one);
 }
 
 TraceSetup plate(int cells) {
@@ -295,9 +273,9 @@ class Kind {
 
   /// `points`: of the spline.
   void measure(int points, Figures& figures) const {
-    std::vector<AtSize> measured;
+    Sizes measured;
     for (std::size_t i = 0; i < sizes_.size(); ++i)
-      measured.push_back(test::measure(make_(sizes_[i]), what_, points, peaks_[i], figures));
+      test::measure(make_(sizes_[i]), what_, points, peaks_[i], measured, figures);
     if (sizes_.size() > 1) add_growth(what_, measured, figures);
   }
 
@@ -315,7 +293,7 @@ class Kind {
 Figures large_models(const BenchOptions& options) {
   Figures figures;
   if (options.smoke) {
-    Kind("plate", plate, {10}).measure(500, figures);
+    Kind("plate", plate, {10}).measure(points_of_spline(plate(10)), figures);
     Kind("circulatory plate", circulatory_plate, {10}).measure(500, figures);
     measure_left_vectors(circulatory_plate(10), figures);
     return figures;

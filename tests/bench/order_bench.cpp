@@ -26,7 +26,7 @@ std::vector<NamedFamily> settings(bool smoke) {
   if (smoke) return list;
   for (const char* name : {"rotating_mass", "spring_pendulum", "ziegler_column"})
     list.push_back({name, scene_setting(name)});
-  list.push_back({"chain of 4", chain_without("")});
+  list.push_back({"chain of 4", hanging_chain()});
   list.push_back({"n = 6, all modes", few_of(6, "all")});
   list.push_back({"n = 20, all modes", few_of(20, "all")});
   list.push_back({"n = 50, 6 modes", few_of(50, "6")});

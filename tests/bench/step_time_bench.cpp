@@ -1,5 +1,4 @@
 // Time per mode and step against one complex LU of the same size, and how it grows.
-#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
@@ -23,30 +22,15 @@ TraceOptions few_modes_of(const Setting& setting, int modes, bool certify) {
   return options;
 }
 
-template <class Factor>
-double lu_seconds(int n, Factor&& factor) {
+/// Time of one complex LU.
+double lu_seconds(int n) {
   const ComplexMatrix matrix = ComplexMatrix::Random(n, n);
   const int inner = std::max(1, 20'000'000 / (n * n * n));
-  double sink = 0.0;
+  Eigen::Index sink = 0;
   const double seconds = median_seconds(3, [&] {
-    for (int i = 0; i < inner; ++i) sink += factor(matrix);
+    for (int i = 0; i < inner; ++i) sink += ComplexLu(matrix).size();
   });
-  return sink > 0.0 ? seconds / inner : 0.0;
-}
-
-/// Time of one complex LU with the library's implementation.
-double own_lu_seconds(int n) {
-  return lu_seconds(n, [](const ComplexMatrix& matrix) {
-    const ComplexLu lu(matrix);
-    return static_cast<double>(lu.size());
-  });
-}
-
-/// The same by Eigen, which the targets were written for.
-double eigen_lu_seconds(int n) {
-  return lu_seconds(n, [](const ComplexMatrix& matrix) {
-    return std::abs(Eigen::PartialPivLU<ComplexMatrix>(matrix).matrixLU()(0, 0));
-  });
+  return sink > 0 ? seconds / inner : 0.0;
 }
 
 /// Shares of the stages in the time of a run.
@@ -71,53 +55,35 @@ void add_step_figures(int n, double spacing, bool certify, std::optional<Target>
   const Setting setting = gyroscopic_family(n, seed, {}, spacing);
   TimedTrace timed;
   Rounds rounds;
-  enum Work : std::size_t { mode_step, own_lu, eigen_lu };
+  enum Work : std::size_t { mode_step, lu };
   for (int i = 0; i < options.repeats; ++i) {
     timed = time_trace(setting, few_modes_of(setting, modes, certify));
-    rounds.add({timed.seconds_per_mode_step(), own_lu_seconds(n), eigen_lu_seconds(n)});
+    rounds.add({timed.seconds_per_mode_step(), lu_seconds(n)});
   }
   const std::string what = " per mode and step / complex LU, n = " + std::to_string(n) + ", certificate " +
                            (certify ? "on" : "off") + (spacing == apart ? ", modes apart" : "");
   const auto steps = static_cast<double>(std::max(1L, timed.result.mode_steps));
   const auto per_step = [&](std::uint64_t count) { return short_text(static_cast<double>(count) / steps); };
   const RunCounts& counts = timed.result.counts;
-  figures.push_back({"time" + what, rounds.ratio(mode_step, own_lu), target,
+  figures.push_back({"time" + what, rounds.ratio(mode_step, lu), target,
                      std::to_string(timed.result.nodes - 1) + " steps of " + std::to_string(modes) +
                          " modes, " + std::to_string(timed.result.rejections.total()) + " tried again; " +
                          per_step(counts.modes.factorizations) + " LU, " + per_step(counts.modes.solves) +
                          " solves, " + per_step(counts.certificate_factorizations) +
-                         " LU of the certificate; LU " + time_text(rounds.seconds(own_lu)) + "; " +
+                         " LU of the certificate; LU " + time_text(rounds.seconds(lu)) + "; " +
                          stages(timed)});
-  figures.push_back({"the same in LU by Eigen", rounds.ratio(mode_step, eigen_lu), target,
-                     "which takes " + time_text(rounds.seconds(eigen_lu))});
-}
-
-/// Least-squares slope of log y over log x.
-double exponent(const std::vector<double>& x, const std::vector<double>& y) {
-  Matrix A(static_cast<Eigen::Index>(x.size()), 2);
-  Vector b(A.rows());
-  for (Eigen::Index i = 0; i < A.rows(); ++i) {
-    A.row(i) << 1.0, std::log(x[static_cast<std::size_t>(i)]);
-    b[i] = std::log(y[static_cast<std::size_t>(i)]);
-  }
-  const Matrix normal = A.transpose() * A;
-  return normal.inverse().row(1).dot(A.transpose() * b);
 }
 
 struct Growth {
-  std::vector<double> x, whole, per_mode_step;
+  std::vector<double> x, seconds;
   std::string text;
 
   void measure(double at, const Setting& setting, const TraceOptions& traced, int repeats) {
-    Rounds rounds;
-    for (int i = 0; i < repeats; ++i) {
-      const TimedTrace timed = time_trace(setting, traced);
-      rounds.add({timed.seconds, timed.seconds_per_mode_step()});
-    }
+    std::vector<double> times;
+    for (int i = 0; i < repeats; ++i) times.push_back(time_trace(setting, traced).seconds);
     x.push_back(at);
-    whole.push_back(rounds.seconds(0));
-    per_mode_step.push_back(rounds.seconds(1));
-    text += (text.empty() ? "" : ", ") + short_text(at) + ": " + time_text(whole.back());
+    seconds.push_back(median(times));
+    text += (text.empty() ? "" : ", ") + short_text(at) + ": " + time_text(seconds.back());
   }
 };
 
@@ -143,44 +109,37 @@ Figures growth(const BenchOptions& options) {
   const Setting setting = gyroscopic_family(n_fixed, seed, {});
   for (const int modes : options.smoke ? std::vector<int>{2, 4} : std::vector<int>{3, 6, 12, 25, 50})
     with_modes.measure(modes, setting, few_modes_of(setting, modes, true), options.repeats);
-  return {
-      {"exponent of whole time in n, 6 modes", exponent(with_size.x, with_size.whole), {}, with_size.text},
-      {"exponent of time per mode and step in n", exponent(with_size.x, with_size.per_mode_step), {}},
-      {"exponent of whole time in the number of modes, n = 50",
-       exponent(with_modes.x, with_modes.whole),
-       {},
-       with_modes.text}};
+  return {{"exponent of time in n, 6 modes", exponent(with_size.x, with_size.seconds), {}, with_size.text},
+          {"exponent of time in the number of modes, n = 50",
+           exponent(with_modes.x, with_modes.seconds),
+           {},
+           with_modes.text}};
 }
 
 Figures symmetric(const BenchOptions& options) {
   const int n = options.smoke ? 8 : 100;
   const Setting undamped = undamped_family(n, seed, {});
   const Setting general = gyroscopic_family(n, seed, {});
-  Figures figures;
-  for (const bool certify : {false, true}) {
-    const auto time = [&](const Setting& setting) {
-      TraceOptions all = setting.options;
-      all.tolerance = 1e-6;
-      all.certify = certify;
-      return time_trace(setting, all);
-    };
-    enum Work : std::size_t { damped_step, undamped_step, damped_run, undamped_run };
-    TimedTrace symmetric, damped;
-    Rounds rounds;
-    for (int i = 0; i < options.repeats; ++i) {
-      symmetric = time(undamped);
-      damped = time(general);
-      rounds.add({damped.seconds_per_mode_step(), symmetric.seconds_per_mode_step(), damped.seconds,
-                  symmetric.seconds});
-    }
-    const std::string what = std::string("time per mode and step, certificate ") + (certify ? "on" : "off");
-    figures.push_back(
-        {"damped gyroscopic / undamped symmetric, all modes, n = " + std::to_string(n) + ", " + what,
-         rounds.ratio(damped_step, undamped_step), certify ? std::nullopt : std::optional(at_least(4.0)),
-         "undamped " + account(symmetric, rounds.seconds(undamped_run)) + "; general " +
-             account(damped, rounds.seconds(damped_run))});
+  const auto time = [&](const Setting& setting) {
+    TraceOptions all = setting.options;
+    all.tolerance = 1e-6;
+    all.certify = false;
+    return time_trace(setting, all);
+  };
+  enum Work : std::size_t { damped_step, undamped_step, damped_run, undamped_run };
+  TimedTrace symmetric, damped;
+  Rounds rounds;
+  for (int i = 0; i < options.repeats; ++i) {
+    symmetric = time(undamped);
+    damped = time(general);
+    rounds.add({damped.seconds_per_mode_step(), symmetric.seconds_per_mode_step(), damped.seconds,
+                symmetric.seconds});
   }
-  return figures;
+  return {{"damped gyroscopic / undamped symmetric, all modes, n = " + std::to_string(n) +
+               ", time per mode and step without certificate",
+           rounds.ratio(damped_step, undamped_step), at_least(4.0),
+           "undamped " + account(symmetric, rounds.seconds(undamped_run)) + "; general " +
+               account(damped, rounds.seconds(damped_run))}};
 }
 
 Figures threads(const BenchOptions& options) {

@@ -6,6 +6,8 @@
 #include <ctime>
 #include <vector>
 
+#include "eigentrail/core/types.hpp"
+
 namespace eigentrail::test {
 
 /// Value in the middle of the sorted list (the upper one of two); the list is not empty.
@@ -36,6 +38,15 @@ double median_seconds(int repeats, Work&& work) {
   work();
   for (int i = 0; i < repeats; ++i) times.push_back(seconds_of(work));
   return median(std::move(times));
+}
+
+/// Exponent of a power law: the least-squares slope of log y over log x.
+inline double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto count = static_cast<Eigen::Index>(x.size());
+  const Vector log_x = Eigen::Map<const Vector>(x.data(), count).array().log();
+  const Vector log_y = Eigen::Map<const Vector>(y.data(), count).array().log();
+  const Vector from_mean = log_x.array() - log_x.mean();
+  return from_mean.dot(log_y) / from_mean.squaredNorm();
 }
 
 /// Times of several works, measured in rounds that contain each of them. If the speed of the machine changes,

@@ -22,6 +22,6 @@ GridLoci loci_on_grid(const HardCase& hard_case, int n_points, Carrier carrier);
 /// Compares loci with the case's analytic branches, which run through crossings, or where it has none with
 /// its reference labels. Conjugates are the same mode. A label counts as wrong where another mode is at least
 /// twice as close to it as its own and the two modes are apart.
-int count_wrong_tracks(const HardCase& hard_case, const LabelledLoci& loci);
+int count_wrong_tracks(const HardCase& hard_case, const GridLoci& loci);
 
 }  // namespace eigentrail::test
