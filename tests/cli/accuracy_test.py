@@ -77,11 +77,6 @@ class Accuracy(CommandTest):
         self.assertEqual(self.study("--quiet", "-o", "study.h5", grids="none"), "")
         self.assertEqual(len(self.open("study.h5")["run"]), 6)
 
-    def test_force_replaces_a_study(self):
-        self.study("-o", "study.h5")
-        self.study("-o", "study.h5", "--force", "--to", "50")
-        self.assertGreater(np.min(self.open("study.h5")["sample_parameter"]), 50)
-
 
 if __name__ == "__main__":
     unittest.main()

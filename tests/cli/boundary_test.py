@@ -273,12 +273,6 @@ class Refusals(BoundaryTest):
         curves = [self.boundary(ISLAND, "Q", *ends, "--force")["dense_output"] for ends in ((-1, 1), (1, -1))]
         np.testing.assert_array_equal(*curves)
 
-    def test_force_replaces_a_boundary_file(self):
-        self.square(CALM)
-        self.square(ISLAND, "--force")
-        with h5py.File(self.folder / "boundary.h5") as file:
-            self.assertEqual(file.attrs["count_curves"], 1)
-
     def test_bad_input_does_not_cost_an_existing_boundary_file(self):
         self.square(ISLAND)
         (self.folder / "boundary.h5").rename(self.folder / "x.h5")

@@ -148,14 +148,6 @@ class Map(CommandTest):
         for name in ("p", "q"):
             self.assertEqual(file[name][:].tolist(), [1, 0.5, 0, -0.5, -1])
 
-    def test_quiet_says_nothing(self):
-        self.assertEqual(self.circle("--quiet"), "")
-
-    def test_force_replaces_a_map(self):
-        self.circle()
-        self.circle("--force", "--to", "1")
-        self.assertEqual(self.open("map.h5")["p"][-1], 1)
-
     def test_lines_without_equilibrium_are_unknown_and_said(self):
         text = self.map(PUSHED, *ALONG_DAMPING, "--second-from", "0", "--second-to", "1.5", grid="4x5")
         self.assertIn("unknown 50 % (10 of 20 cells)", text)

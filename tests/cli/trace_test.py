@@ -125,30 +125,6 @@ class Trace(CommandTest):
         summary = self.run_well("trace", "scene.toml", "--force")
         return "\n".join(line for line in summary.splitlines() if line.startswith("  margin"))
 
-    def test_quiet_prints_nothing(self):
-        self.write("scene.toml", BLADE)
-        self.assertEqual(self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet"), "")
-
-    def test_force_replaces_the_output(self):
-        path = self.trace(BLADE)
-        self.trace(BLADE, "--force", "--tolerance", "1e-9")
-        with h5py.File(path) as file:
-            self.assertEqual(file.attrs["tolerance"], 1e-9)
-
-    def test_a_second_run_gives_the_same_numbers(self):
-        with h5py.File(self.trace(BLADE)) as one, h5py.File(self.trace(BLADE, output="two.h5")) as two:
-            for name in ["omega", "eigenvalue", "dense_output", "certified", "mode_shape", "equilibrium"]:
-                np.testing.assert_array_equal(one[name][:], two[name][:])
-
-    def test_up_and_down_agree_within_the_tolerance(self):
-        # At 5 rad/s, where the scene's own range ends, its guess leads to another equilibrium.
-        scene = (SCENES / "rotating_mass.toml").read_text(encoding="utf-8")
-        self.trace(scene, "--from", "100", "--to", "10", output="down.h5")
-        self.trace(scene, "--from", "10", "--to", "100", output="up.h5")
-        places = np.linspace(10.0, 100.0, 91)
-        self.assert_within(self.eval_at("up.h5", places), self.eval_at("down.h5", places),
-                           2.0 * 1e-8)  # each may err by the tolerance of the scene
-
     def test_options_override_the_scene(self):
         path = self.trace(BLADE, "--from", "20", "--to", "30", "--tolerance", "1e-9", "--modes", "1", "--order", "2",
                           "--max-step", "0.5")

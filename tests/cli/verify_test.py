@@ -5,7 +5,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import BIRTH, BLADE, CROSSING, FAMILY, PUSHED_PENDULUM, ProgramTest
+from program import BLADE, ProgramTest
 
 FREE_ALONG_ITS_AXIS = """
 parameters = { speed = 0.0 }
@@ -48,9 +48,6 @@ class Verify(ProgramTest):
         self.assertEqual(self.run_program("trace", "scene.toml", "-o", "blade.h5", "--force").returncode, 0)
         self.assertEqual(self.verify().returncode, 0)
 
-    def test_family_of_matrices_passes(self):
-        self.assert_passes(FAMILY)
-
     def test_a_mode_that_comes_from_infinity_passes(self):
         # s^2 = 0.09 / p - 1: beside p = 0 no mode is followed, so that none decays there.
         self.assert_passes("""[trace]
@@ -62,9 +59,6 @@ tolerance = 1e-6
 M = [[[1, 0], [0, 0]]]
 K = [[[1, 0.3], [0.3, 0]], [[0, 0], [0, 1]]]
 """)
-
-    def test_a_pair_that_becomes_two_real_modes_passes(self):
-        self.assert_passes(BIRTH)
 
     def test_collisions_of_growing_and_decaying_modes_at_neighbouring_points_pass(self):
         # At each of them two modes are stored whose pair is one behind it.
@@ -79,9 +73,6 @@ K = [[[-1, 0], [0, -1.2]], [[0, 1], [-1, 0]]]
 """)
         self.run_well("trace", "scene.toml", "-o", "loci.h5", "--quiet")
         self.assertIn("2 special points against the spectrum there", self.run_well("verify", "loci.h5"))
-
-    def test_a_crossing_passes(self):
-        self.assert_passes(CROSSING)
 
     def test_equal_real_eigenvalues_that_come_as_a_pair_pass(self):
         """24 equal blades on a ring with drag: QZ makes a pair with a small imaginary part of some of the double real
@@ -137,11 +128,6 @@ K = [[[-1, 0], [0, -1.2]], [[0, 1], [-1, 0]]]
         """(s + 2 (1 + p))^2"""
         self.assert_passes("[trace]\nparameter = \"p\"\nfrom = 0\nto = 1\ntolerance = 1e-11\n[matrix_family]\n"
                            "M = [[[1]]]\nC = [[[4]], [[4]]]\nK = [[[4]], [[8]], [[4]]]\n")
-
-    def test_a_path_that_turns_back_passes(self):
-        """Long steps around the fold at p = 1, where Newton's method at constant p could find the equilibrium of the
-        path behind the fold."""
-        self.assert_passes(PUSHED_PENDULUM)
 
     def assert_fails(self):
         run = self.verify()

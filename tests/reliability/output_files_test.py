@@ -31,7 +31,8 @@ class OutputFiles(CommandTest):
         self.write("blade.toml", BLADE)
         return ((("trace", "scene.toml"), "out.h5"), (("report", "loci.h5"), "out.html"), (("export", "loci.h5"), "out.csv"),
                 (("export", "loci.h5"), "out.json"), (("map", "blade.toml", *plane, "--grid", "2x2"), "out.h5"),
-                (("boundary", "blade.toml", *plane, "--lines", "1"), "out.h5"))
+                (("boundary", "blade.toml", *plane, "--lines", "1"), "out.h5"),
+                (("accuracy", "blade.toml", "--tolerances", "1e-3", "--orders", "1", "--grids", "none", "--samples", "1", "--repeat", "1"), "out.h5"))
 
     def test_what_killed_runs_have_left_is_cleaned_by_the_next(self):
         for command, output in self.commands():
@@ -44,15 +45,15 @@ class OutputFiles(CommandTest):
                 self.assertEqual(self.names(), before | {output})
                 (self.folder / output).unlink()
 
-    def test_permissions_and_links_stay(self):
+    def test_force_replaces_and_quiet_says_nothing_and_permissions_and_links_stay(self):
         for command, output in self.commands():
             with self.subTest(command):
-                self.run_well(*command, "-o", f"real_{output}", "-q")
+                self.assertEqual(self.run_well(*command, "-o", f"real_{output}", "-q"), "")
                 real, link = self.folder / f"real_{output}", self.folder / output
                 real.chmod(0o640)
                 link.symlink_to(real.name)
                 os.utime(real, (0, 0))
-                self.run_well(*command, "-o", output, "-q", "--force")
+                self.assertEqual(self.run_well(*command, "-o", output, "-q", "--force"), "")
                 self.assertTrue(link.is_symlink())
                 self.assertGreater(real.stat().st_mtime, 0.0)
                 self.assertEqual(real.stat().st_mode & 0o777, 0o640)
