@@ -276,6 +276,8 @@ class Harmonics(FigureTest):
         self.assertEqual([operation.is_too_close(p, damped) for p in (17.9, 18.1, 25, 32.9, 33.1, 45.1, 66.1)],
                          [False, True, True, True, False, True, False])
         np.testing.assert_allclose(operation.strips([]), [(18, 20), (30, 33), (45, 50), (60, 66)])
+        for p in (15.0, 25.0, 35.0):
+            self.assertEqual(standard.strips([(-p, damped)]), standard.strips([(p, damped)]))
 
     def test_without_the_engine_the_unit_says_it(self):
         with_engine = trace_figures.campbell_picture(self.loci, harmonics=[1]).panels[0]

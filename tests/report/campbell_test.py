@@ -246,6 +246,14 @@ class Scripts(PageTest):
         margins = self.driver.execute_script("return [2.4, 2.5, 5, 1e9].map((factor) => [apiMargin(factor, true), apiMargin(factor, false)])")
         np.testing.assert_allclose(margins, [[0.0, 0.0], [0.0, 0.10], [0.17 * (1 - 1 / 3.5), 0.10 + 0.17 * (1 - 1 / 3.5)], [0.16, 0.26]], atol=1e-12)
 
+    def test_margins_hold_in_both_senses_of_rotation(self):
+        script = """const file = { operating: { ranges: [[400, 520]], margin: null } }, at = (parameter) => ({ file, parameter, s: [0, 1000] });
+            return [separationText(at(arguments[0])), marginStrips([file], [at(arguments[0])])];"""
+        for speed, words in ((557.2, "7.15 %, 26 % wanted"), (380.0, "5 %, 16 % wanted"), (450.0, "in the operating range")):
+            one, other = (self.driver.execute_script(script, value) for value in (speed, -speed))
+            self.assertEqual(one[0], words)
+            self.assertEqual(one, other)
+
     def test_labels_beside_marks_lie_apart(self):
         for n in (1, 5, 30, 200):
             points = (self.random.random((n, 2)) * [400, 300]).tolist()

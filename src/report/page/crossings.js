@@ -58,11 +58,11 @@ function apiMargin(amplification, below) {
   return below ? Math.min(0.16, grows) : Math.min(0.26, 0.1 + grows);
 }
 
-/** The operating range to which most distance is wanting: { range, distance, wanted, inside, close }; null if there is none. */
+/** The operating range to which most distance is wanting, in either sense of rotation: { range, distance, wanted, inside, close }; null if there is none. */
 function separationOf(crossing) {
   const { operating } = crossing.file;
   const list = operating.ranges.map((range) => {
-    const [from, to] = range, p = crossing.parameter, below = p < from, above = p > to;
+    const [from, to] = range, p = Math.abs(crossing.parameter), below = p < from, above = p > to;
     const distance = below ? (from - p) / from : above ? (to > 0 ? (p - to) / to : Infinity) : 0;
     const wanted = operating.margin ?? apiMargin(amplificationFactor(crossing.s), !above);
     return { range, distance, wanted, below, above, inside: !below && !above, close: wanted > 0 && distance < wanted };
@@ -84,7 +84,7 @@ function marginStrips(files, crossings) {
   return files.flatMap((file) => {
     const { operating } = file;
     return operating.ranges.flatMap(([from, to]) => {
-      const widest = (isThere, below) => operating.margin ?? Math.max(0, ...crossings.filter((c) => c.file === file && isThere(c.parameter))
+      const widest = (isThere, below) => operating.margin ?? Math.max(0, ...crossings.filter((c) => c.file === file && isThere(Math.abs(c.parameter)))
         .map((c) => apiMargin(amplificationFactor(c.s), below)));
       return [[from * (1 - widest((p) => p < from, true)), from], [to, to * (1 + widest((p) => p > to, false))]];
     });

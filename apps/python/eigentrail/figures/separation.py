@@ -30,7 +30,7 @@ class Operation(namedtuple("Operation", "ranges margin")):
         widest margin of those on a side counts."""
         found = []
         for low, high in self.ranges:
-            below = max((self.wanted(s, True) for p, s in critical if p < low), default=self.margin or 0.0)
-            above = max((self.wanted(s, False) for p, s in critical if p > high), default=self.margin or 0.0)
+            below = max((self.wanted(s, True) for p, s in critical if abs(p) < low), default=self.margin or 0.0)
+            above = max((self.wanted(s, False) for p, s in critical if abs(p) > high), default=self.margin or 0.0)
             found += [(low * (1 - below), low), (high, high * (1 + above))]
         return [(low, high) for low, high in found if high > low]
