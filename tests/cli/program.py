@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ["EIGENTRAIL"]
@@ -199,6 +200,13 @@ class ProgramTest(unittest.TestCase):
         run = self.run_program(*arguments)
         self.assertEqual((run.returncode, run.stderr), (EXIT_DONE, ""), run.args)
         return run.stdout
+
+    def wait_for(self, name):
+        """Waits until a run has begun to write the file."""
+        end = time.monotonic() + 20
+        while not (self.folder / name).exists():
+            self.assertLess(time.monotonic(), end, "nothing is written")
+            time.sleep(0.002)
 
     def write(self, name, text):
         path = self.folder / name

@@ -70,13 +70,6 @@ class Interrupted(ProgramTest):
         return subprocess.Popen([PROGRAM, "trace", "scene.toml", "-o", output, "--quiet", "--save-every", save_every, *options],
                                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **settings)
 
-    def wait_for(self, name):
-        """Waits until the running trace has saved its file for the first time."""
-        end = time.monotonic() + 20
-        while not (self.folder / name).exists():
-            self.assertLess(time.monotonic(), end, "nothing is published")
-            time.sleep(0.002)
-
     def whole(self):
         if not (self.folder / "whole.h5").exists():
             self.run_well("trace", "scene.toml", "-o", "whole.h5", "--quiet")
