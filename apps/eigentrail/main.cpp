@@ -81,7 +81,7 @@ std::string unknown_option(const CLI::App& program, const CLI::App& command, con
 }
 
 /// A line of the help as several, so that none is wider than a terminal: descriptions go on below themselves,
-/// commands behind a backslash. `column`: where descriptions begin.
+/// commands with an option, behind a backslash. `column`: where descriptions begin.
 std::string within_terminal(std::string line, std::size_t column) {
   constexpr std::size_t width = 80;
   const bool is_command = line.starts_with("  eigentrail ");
@@ -92,7 +92,7 @@ std::string within_terminal(std::string line, std::size_t column) {
   const std::string end = is_command ? " \\" : "";
   std::string lines;
   while (line.size() > width) {
-    const std::size_t blank = line.rfind(' ', width - end.size());
+    const std::size_t blank = line.rfind(is_command ? " -" : " ", width - end.size());
     if (blank == std::string::npos || blank <= indent.size()) break;  // a word that is as wide
     lines += line.substr(0, blank) + end + '\n';
     line = indent + line.substr(blank + 1);

@@ -21,24 +21,26 @@ function sections(lines) {
   return result.filter((section) => section.heading || section.lines.some((line) => line !== ""));
 }
 
-/// Converts lines "  name   text" to tagged paragraphs. After a long name the text is on the next line.
-function tagged(lines) {
-  const items = [];
+/// What lines "  name   text" list, as { name, text }. The text goes on in the lines below, after a long name it begins there.
+function items(lines) {
+  const result = [];
   for (const line of lines) {
     const [, name, text] = line.match(/^ {2}(\S.*?)(?: {2,}(.*))?$/) ?? [];
-    if (name) items.push({ name, text: text ? [text] : [] });
-    else items.at(-1).text.push(line.trim());
+    if (name) result.push({ name, text: text ? [text] : [] });
+    else result.at(-1).text.push(line.trim());
   }
-  return items.flatMap(({ name, text }) => [".TP", `.B ${plain(name)}`, plain(text.join(" "))]);
+  return result.map(({ name, text }) => ({ name, text: text.join(" ") }));
 }
 
-/// Converts indented lines to preformatted ones and all others to paragraphs.
+const tagged = (lines) => items(lines).flatMap(({ name, text }) => [".TP", `.B ${plain(name)}`, plain(text)]);
+
+/// Converts indented lines to preformatted ones and all others to paragraphs, which end where a line is empty or indented.
 function paragraphs(lines) {
-  const result = [];
-  for (const line of lines.filter((text) => text !== "")) {
-    if (line.startsWith("  ")) result.push(".nf", plain(line), ".fi");
-    else result.push(".PP", plain(line));
-  }
+  const result = [], isIndented = (line) => line.startsWith("  ");
+  lines.forEach((line, i) => {
+    if (isIndented(line)) result.push(".nf", plain(line), ".fi");
+    else if (line !== "") result.push(...(i > 0 && lines[i - 1] !== "" && !isIndented(lines[i - 1]) ? [] : [".PP"]), plain(line));
+  });
   return result;
 }
 
@@ -55,8 +57,8 @@ function command(name, about) {
 }
 
 const [head, ...rest] = sections(help());
-const about = head.lines[0];
-const commands = rest.find((section) => section.heading === "Subcommands").lines.map((line) => line.match(/^ {2}(\S+) +(.*)$/));
+const about = head.lines.slice(0, head.lines.findIndex((line) => line.startsWith("Usage: "))).join(" ");
+const commands = items(rest.find((section) => section.heading === "Subcommands").lines);
 const ends = rest.filter((section) => !section.heading).flatMap((section) => section.lines).join(" ");
 const page = [
   `.TH EIGENTRAIL 1 "" "eigentrail ${version}" "User Commands"`,
@@ -76,7 +78,7 @@ const page = [
   "Begin with",
   ".BR \"eigentrail new my_scene.toml\" .",
   ".SH COMMANDS",
-  ...commands.flatMap(([, name, text]) => command(name, text)),
+  ...commands.flatMap(({ name, text }) => command(name, text)),
   ".SH EXIT STATUS",
   plain(ends.replace(/^Exit codes: /, "")),
   "",
