@@ -2,6 +2,7 @@
 
 import gzip
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -78,10 +79,10 @@ class DebianPackage(unittest.TestCase):
     def test_manual_names_every_command(self):
         manual = gzip.decompress((self.root / "usr/share/man/man1/eigentrail.1.gz").read_bytes()).decode()
         help_text = run(self.root / "usr/bin/eigentrail", "--help")
-        names = help_text.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()
+        names = re.findall(r"^  (\S+)", help_text.split("Subcommands:\n")[1].split("\n\n")[0], re.MULTILINE)
         self.assertGreater(len(names), 5)
-        for line in names:
-            self.assertIn(f".SS {line.split()[0]}\n", manual)
+        for name in names:
+            self.assertIn(f".SS {name}\n", manual)
 
 
 if __name__ == "__main__":
