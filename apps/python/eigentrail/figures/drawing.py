@@ -35,8 +35,8 @@ def excitation(loci):
 def geometry(loci, node):
     """Carriers (points and bodies), places on them and links between these at a stored point; without the file the carriers,
     by the names of their coordinates."""
-    carriers = json.loads(engine().carriers(list(map(str, loci.coordinate.values))))
-    return (_read(loci, node) or {}).get("geometry") or {"carriers": carriers, "places": [], "lines": []}
+    stored = (_read(loci, node) or {}).get("geometry")
+    return stored or {"carriers": json.loads(engine().carriers(list(map(str, loci.coordinate.values)))), "places": [], "lines": []}
 
 
 def _read(loci, node):
