@@ -144,8 +144,9 @@ std::optional<SparseSeries> mostly_zero(const MatrixSeries& A) {
 
 MatrixSeries product(const MatrixSeries& A, const MatrixSeries& B, std::size_t count) {
   if (const auto sparse = mostly_zero(B)) {
-    return series_product(A, *sparse, A[0].rows(), count,
-                          [](const Matrix& a, const SparseMatrix& b, Matrix& sum) { sum += a * b; });
+    return series_product(
+        A, *sparse, A[0].rows(), count,
+        [](const Matrix& a, const SparseMatrix& b, Matrix& sum) { sum.noalias() += a * b; });
   }
   return series_product(A, B, A[0].rows(), count, [](const Matrix& a, const Matrix& b, Matrix& sum) {
     add_full_product(dgemm_, 'N', a, b, sum);
@@ -156,7 +157,7 @@ MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, st
   if (const auto sparse = mostly_zero(A)) {
     return series_product(
         *sparse, B, A[0].cols(), count,
-        [](const SparseMatrix& a, const Matrix& b, Matrix& sum) { sum += a.transpose() * b; });
+        [](const SparseMatrix& a, const Matrix& b, Matrix& sum) { sum.noalias() += a.transpose() * b; });
   }
   return series_product(A, B, A[0].cols(), count, [](const Matrix& a, const Matrix& b, Matrix& sum) {
     add_full_product(dgemm_, 'T', a, b, sum);
@@ -188,10 +189,10 @@ MatrixSeries SparseCongruence::operator()(const SystemSeries& B, std::size_t cou
     for (std::size_t j = 0; j < right_.size(); ++j) {
       for (SparseMatrix::InnerIterator r(right_[j], c); r; ++r) {
         for (std::size_t i = 0; i < B.size() && i + j < products; ++i) {
-          for (SparseMatrix::InnerIterator b(B[i].sparse(), r.row()); b; ++b) {
-            column(static_cast<Eigen::Index>(i + j), b.row()) += b.value() * r.value();
-            if (!std::exchange(is_filled[static_cast<std::size_t>(b.row())], true)) filled.push_back(b.row());
-          }
+          B[i].for_each_in_column(r.row(), [&](Eigen::Index row, double entry) {
+            column(static_cast<Eigen::Index>(i + j), row) += entry * r.value();
+            if (!std::exchange(is_filled[static_cast<std::size_t>(row)], true)) filled.push_back(row);
+          });
         }
       }
     }

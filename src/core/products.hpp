@@ -34,7 +34,7 @@ class SparseCongruence {
   /// Empty unless most entries of each coefficient are zero.
   static std::optional<SparseCongruence> of(const MatrixSeries& left, const MatrixSeries& right);
 
-  /// The first coefficients, at most `count`. B: with sparse coefficients.
+  /// The first coefficients, at most `count`.
   MatrixSeries operator()(const SystemSeries& B, std::size_t count) const;
 
  private:

@@ -30,7 +30,7 @@ struct OwnMatrices {
 OwnMatrices own_matrices(const std::vector<Matrix>& all, const Matrix& left, const Matrix& right,
                          Random random) {
   OwnMatrices own;
-  for (const Matrix& A : all) own.all.emplace_back(left.transpose() * A * right);
+  for (const Matrix& A : all) own.all.push_back(congruence(left, A, right));
   own.B = random_combination(own.all, random);
   const Eigen::EigenSolver<Matrix> eigen(
       Matrix(own.B.partialPivLu().solve(random_combination(own.all, random))));
@@ -135,7 +135,7 @@ std::optional<PartCopy> as_copy(const std::vector<Matrix>& all, const OwnMatrice
                 S.inverse() * part.inverse};
   const double allowed = magnified * equal * static_cast<double>(S.rows());
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const Matrix difference = copy.left.transpose() * all[k] * copy.right - a.all[k];
+    const Matrix difference = congruence(copy.left, all[k], copy.right) - a.all[k];
     const double terms = magnitudes_of_terms(copy.left, all[k], copy.right).norm();
     if (!(difference.norm() <= allowed * std::max(terms, a.all[k].norm()))) return std::nullopt;
   }

@@ -1,6 +1,9 @@
 #include "eigentrail/reduction/reduced_pencil.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "core/products.hpp"
 #include "eigentrail/reduction/complex_blocks.hpp"
@@ -29,77 +32,98 @@ MatrixSeries times_basis(const SystemSeries& B, const MatrixSeries& T, std::size
   return product;
 }
 
-/// The products of one basis with all matrices, if most entries of the basis are zero and matrices are
-/// sparse.
-std::optional<SparseCongruence> sparse_products(const TangentBasis& basis, const Linearization& matrices) {
-  const bool any = matrices.M[0].is_sparse() || matrices.C[0].is_sparse() || matrices.K[0].is_sparse();
-  if (!any || basis.is_identity) return std::nullopt;
-  if (!basis.left.empty()) return SparseCongruence::of(basis.left, basis.T);
-  if (basis.parts) return SparseCongruence::of({basis.parts->left}, basis.T);
-  return SparseCongruence::of(basis.T, basis.T);
+/// left(h)^T BT(h) for BT(h) = B(h) T(h). Dense models use Eigen's products, not BLAS, so that their results
+/// do not change between versions, not even in the last bit.
+MatrixSeries times_left(const MatrixSeries& left, const MatrixSeries& BT, const SystemSeries& B, int order) {
+  const std::size_t count = last_order(order, BT.size() + left.size(), 2) + 1;
+  if (B[0].is_sparse()) return transposed_product(left, BT, count);
+  MatrixSeries result(count, Matrix::Zero(left[0].cols(), BT[0].cols()));
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    for (std::size_t j = 0; j < BT.size() && i + j < count; ++j)
+      result[i + j].noalias() += left[i].transpose() * BT[j];
+  }
+  return result;
 }
 
 MatrixSeries project(const TangentBasis& basis, const std::optional<SparseCongruence>& sparse,
                      const SystemSeries& B, int order) {
-  const MatrixSeries& T = basis.T;
   if (basis.is_identity) return dense_terms(B, last_order(order, B.size(), 1) + 1);
-  if (sparse && B[0].is_sparse()) return (*sparse)(B, static_cast<std::size_t>(order) + 1);
-  const MatrixSeries BT = times_basis(B, T, last_order(order, B.size() + T.size(), 2) + 1);
-  const std::size_t count = last_order(order, BT.size() + T.size(), 2) + 1;
-  // Dense models use Eigen's products, not BLAS, so that their results do not change between versions, not
-  // even in the last bit.
-  if (B[0].is_sparse()) return transposed_product(T, BT, count);
-  MatrixSeries result(count, Matrix::Zero(T[0].cols(), T[0].cols()));
-  for (std::size_t i = 0; i < T.size(); ++i) {
-    for (std::size_t j = 0; j < BT.size() && i + j < result.size(); ++j) {
-      result[i + j].noalias() += T[i].transpose() * BT[j];
+  if (sparse) return (*sparse)(B, static_cast<std::size_t>(order) + 1);
+  const std::size_t count = last_order(order, B.size() + basis.T.size(), 2) + 1;
+  return times_left(basis.T, times_basis(B, basis.T, count), B, order);
+}
+
+using Columns = std::vector<Eigen::Index>;
+
+MatrixSeries columns_of(const MatrixSeries& A, const Columns& columns) {
+  MatrixSeries result;
+  for (const Matrix& coefficient : A) result.emplace_back(coefficient(Eigen::all, columns));
+  return result;
+}
+
+/// The blocks left(h)^T B(h) right(h) of all parts, for several B. Parts most of whose coordinates and
+/// equations are zero are reduced together, as sparse matrices, and the others together, as dense ones.
+class PartProducts {
+ public:
+  explicit PartProducts(const TangentBasis& basis)
+      : basis_(basis), left_(basis.left.empty() ? MatrixSeries{basis.parts->left} : basis.left) {
+    for (const IndependentParts::Range& range : basis.parts->ranges) {
+      if (range.complex_sign < 0) continue;  // has the same matrices
+      Columns columns(static_cast<std::size_t>(range.size));
+      std::iota(columns.begin(), columns.end(), range.first);
+      const bool few = mostly_zero(columns_of(left_, columns)) && mostly_zero(columns_of(basis.T, columns));
+      (few ? sparse_ : dense_).push_back(columns);
     }
+    const Columns together = joined(sparse_);
+    if (!sparse_.empty())
+      product_ = SparseCongruence::of(columns_of(left_, together), columns_of(basis.T, together));
   }
-  return result;
-}
 
-/// Whether a matrix only selects and scales coordinates: one entry in every column.
-bool selects(const Matrix& A) {
-  return ((A.array() != 0.0).colwise().count() == 1).all();
-}
-
-/// left^T B right, of which the diagonal blocks are used.
-Matrix blocks_of(const IndependentParts& parts, const SystemMatrix& B) {
-  // Balanced coordinates, the directions x and y of a shaft: the same numbers as below, without their n^3
-  // multiplications.
-  if (!B.is_sparse() && selects(parts.left) && selects(parts.right))
-    return congruence(parts.left, B.dense(), parts.right);
-  Matrix result = Matrix::Zero(parts.left.cols(), parts.right.cols());
-  Matrix product = Matrix::Zero(B.rows(), parts.right.cols());
-  B.add_product_to(product, parts.right);
-  for (const IndependentParts::Range& range : parts.ranges) {
-    if (range.complex_sign < 0) continue;  // has the same matrices
-    const auto left = parts.left.middleCols(range.first, range.size);
-    const auto columns = product.middleCols(range.first, range.size);
-    auto block = result.block(range.first, range.first, range.size, range.size);
-    if (B.is_sparse())
-      block = transposed_product(Matrix(left), Matrix(columns));
-    else
-      block.noalias() = left.transpose() * columns;
+  /// Within a pattern. Where the basis changes along the path, it tells the freedoms that no force holds.
+  MatrixSeries operator()(const SystemSeries& B, const Matrix& pattern, int order) const {
+    const std::size_t count = last_order(order, B.size() + basis_.T.size() + left_.size(), 3) + 1;
+    MatrixSeries result(count, Matrix::Zero(pattern.rows(), pattern.cols()));
+    const auto place = [&](const MatrixSeries& all, Eigen::Index first, const Columns& part) {
+      const Eigen::Index at = part.front(), size = std::ssize(part);
+      const bool within = basis_.left.empty() || size == 1;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto block = all[k].block(first, first, size, size);
+        if (within)
+          result[k].block(at, at, size, size) = block.cwiseProduct(pattern.block(at, at, size, size));
+        else
+          result[k].block(at, at, size, size) = block;
+      }
+    };
+    Eigen::Index first = 0;
+    if (!sparse_.empty()) {
+      const MatrixSeries all = (*product_)(B, count);
+      for (const Columns& part : sparse_) place(all, std::exchange(first, first + std::ssize(part)), part);
+    }
+    if (dense_.empty()) return result;
+    const std::size_t count_BT = last_order(order, B.size() + basis_.T.size(), 2) + 1;
+    const MatrixSeries BT = times_basis(B, columns_of(basis_.T, joined(dense_)), count_BT);
+    first = 0;
+    for (const Columns& part : dense_) {
+      MatrixSeries own;
+      for (const Matrix& all : BT) own.emplace_back(all.middleCols(first, std::ssize(part)));
+      first += std::ssize(part);
+      place(times_left(columns_of(left_, part), own, B, order), 0, part);
+    }
+    return result;
   }
-  return result;
-}
 
-/// left^T B right within its pattern, coefficient by coefficient up to h^order. Of what is beside the
-/// diagonal blocks nothing is used.
-MatrixSeries transformed(const IndependentParts& parts, const std::optional<SparseCongruence>& sparse,
-                         const SystemSeries& B, const Matrix& pattern, int order) {
-  const std::size_t count = last_order(order, B.size(), 1) + 1;
-  MatrixSeries result(count);
-  if (sparse && B[0].is_sparse()) {
-    result = (*sparse)(B, count);
-  } else {
-    std::transform(B.begin(), B.begin() + static_cast<std::ptrdiff_t>(count), result.begin(),
-                   [&](const SystemMatrix& coefficient) { return blocks_of(parts, coefficient); });
+ private:
+  static Columns joined(const std::vector<Columns>& parts) {
+    Columns all;
+    for (const Columns& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
   }
-  for (Matrix& coefficient : result) coefficient = coefficient.cwiseProduct(pattern);
-  return result;
-}
+
+  const TangentBasis& basis_;
+  MatrixSeries left_;
+  std::vector<Columns> sparse_, dense_;  ///< of each part
+  std::optional<SparseCongruence> product_;
+};
 
 /// The diagonal block of a part.
 MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& range) {
@@ -107,25 +131,6 @@ MatrixSeries block_of(const MatrixSeries& B, const IndependentParts::Range& rang
   for (const Matrix& coefficient : B)
     result.emplace_back(coefficient.block(range.first, range.first, range.size, range.size));
   while (result.size() > 1 && result.back().isZero(0.0)) result.pop_back();
-  return result;
-}
-
-/// The same where the basis changes along the path: left(h)^T B(h) right(h), of which the diagonal blocks are
-/// used. Freedoms that no force holds stay without force.
-MatrixSeries transformed(const TangentBasis& basis, const std::optional<SparseCongruence>& sparse,
-                         const SystemSeries& B, const Matrix& pattern, int order) {
-  const auto product = [&] {
-    const MatrixSeries BT = times_basis(B, basis.T, last_order(order, B.size() + basis.T.size(), 2) + 1);
-    const std::size_t count = last_order(order, BT.size() + basis.left.size(), 2) + 1;
-    return transposed_product(basis.left, BT, count);
-  };
-  MatrixSeries result =
-      sparse && B[0].is_sparse() ? (*sparse)(B, static_cast<std::size_t>(order) + 1) : product();
-  for (const IndependentParts::Range& range : basis.parts->ranges) {
-    if (range.size > 1) continue;
-    for (Matrix& coefficient : result)
-      coefficient(range.first, range.first) *= pattern(range.first, range.first);
-  }
   return result;
 }
 
@@ -143,11 +148,9 @@ MatrixSeries canonical(MatrixSeries B, const IndependentParts& parts) {
 
 ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasis& basis, int order) {
   const IndependentParts& parts = *basis.parts;
-  const auto sparse = sparse_products(basis, linearization);
+  const PartProducts products(basis);
   const auto reduced = [&](const SystemSeries& B, const Matrix& pattern) {
-    return canonical(basis.left.empty() ? transformed(parts, sparse, B, pattern, order)
-                                        : transformed(basis, sparse, B, pattern, order),
-                     parts);
+    return canonical(products(B, pattern, order), parts);
   };
   ReducedPencil whole{reduced(linearization.M, parts.pattern_M), reduced(linearization.C, parts.pattern_C),
                       reduced(linearization.K, parts.pattern_K)};
@@ -172,7 +175,7 @@ ReducedPencil reduce_parts(const Linearization& linearization, const TangentBasi
 
 ReducedPencil reduce(const Linearization& linearization, const TangentBasis& basis, int order) {
   if (basis.parts) return reduce_parts(linearization, basis, order);
-  const auto sparse = sparse_products(basis, linearization);
+  const auto sparse = basis.is_identity ? std::nullopt : SparseCongruence::of(basis.T, basis.T);
   return {project(basis, sparse, linearization.M, order), project(basis, sparse, linearization.C, order),
           project(basis, sparse, linearization.K, order)};
 }

@@ -341,7 +341,7 @@ bool holds(const Splitting& splitting, const std::vector<Matrix>& all, double ma
   const double size = std::max(splitting.left.norm() * splitting.right.norm(), 1.0);
   const double of_entries = magnified_by(splitting, magnified);
   return std::all_of(all.begin(), all.end(), [&](const Matrix& A) {
-    Matrix there = splitting.left.transpose() * A * splitting.right;
+    Matrix there = congruence(splitting.left, A, splitting.right);
     const Matrix rounding = rounding_of_entries(splitting.left, A, splitting.right, of_entries);
     Eigen::Index at = 0;
     for (const Eigen::Index m : splitting.sizes) {
@@ -458,7 +458,7 @@ Matrix pattern_of_entries(const Matrix& left, const std::vector<Matrix>& matrice
                           double magnified) {
   Matrix pattern = Matrix::Zero(left.cols(), right.cols());
   for (const Matrix& A : matrices) {
-    const Matrix there = (left.transpose() * A * right).cwiseAbs();
+    const Matrix there = congruence(left, A, right).cwiseAbs();
     const Matrix rounding = rounding_of_entries(left, A, right, magnified);
     pattern = pattern.cwiseMax((there.array() > rounding.array()).cast<double>().matrix());
   }

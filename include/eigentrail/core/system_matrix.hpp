@@ -75,12 +75,21 @@ class BasicSystemMatrix {
   Column row_norms() const {
     if (const auto* values = std::get_if<Dense>(&values_)) return values->rowwise().norm();
     Column squares = Column::Zero(rows());
-    const Sparse& values = sparse();
-    for (Eigen::Index j = 0; j < values.outerSize(); ++j) {
-      for (typename Sparse::InnerIterator entry(values, j); entry; ++entry)
-        squares[entry.row()] += entry.value() * entry.value();
-    }
+    for (Eigen::Index j = 0; j < cols(); ++j)
+      for_each_in_column(j, [&](Eigen::Index row, const Real& entry) { squares[row] += entry * entry; });
     return squares.cwiseSqrt();
+  }
+
+  /// Calls take(row, entry) for the entries of a column that are not zero.
+  template <class Take>
+  void for_each_in_column(Eigen::Index column, Take&& take) const {
+    if (const auto* values = std::get_if<Dense>(&values_)) {
+      for (Eigen::Index row = 0; row < values->rows(); ++row)
+        if ((*values)(row, column) != Real(0.0)) take(row, (*values)(row, column));
+      return;
+    }
+    for (typename Sparse::InnerIterator entry(sparse(), column); entry; ++entry)
+      take(entry.row(), entry.value());
   }
 
   /// Adds B X to sum without a temporary; B is this matrix.
