@@ -69,4 +69,20 @@ std::vector<DiagonalBlock> diagonal_blocks(const MatrixSeries& all) {
   return diagonal_blocks(SparseMatrix(magnitudes.sparseView()));
 }
 
+Matrix packed(const Matrix& A, const std::vector<DiagonalBlock>& blocks) {
+  std::size_t width = 0;
+  for (const DiagonalBlock& block : blocks) width = std::max(width, block.columns.size());
+  Matrix P = Matrix::Zero(A.rows(), static_cast<Eigen::Index>(width));
+  for (const DiagonalBlock& block : blocks)
+    P(block.rows, Eigen::seqN(0, block.columns.size())) = A(block.rows, block.columns);
+  return P;
+}
+
+Matrix unpacked(const Matrix& P, const std::vector<DiagonalBlock>& blocks, Eigen::Index columns) {
+  Matrix A = Matrix::Zero(P.rows(), columns);
+  for (const DiagonalBlock& block : blocks)
+    A(block.rows, block.columns) = P(block.rows, Eigen::seqN(0, block.columns.size()));
+  return A;
+}
+
 }  // namespace eigentrail

@@ -20,4 +20,11 @@ std::vector<DiagonalBlock> diagonal_blocks(const SparseMatrix& A);
 /// The same of the entries that are not zero in some of the matrices, all of one size.
 std::vector<DiagonalBlock> diagonal_blocks(const MatrixSeries& all);
 
+/// The columns of the blocks of a matrix side by side, in as few columns as the largest block has: what acts
+/// on every block by itself acts on all of them at once.
+Matrix packed(const Matrix& A, const std::vector<DiagonalBlock>& blocks);
+
+/// The matrix with so many columns of which P = packed(A, blocks).
+Matrix unpacked(const Matrix& P, const std::vector<DiagonalBlock>& blocks, Eigen::Index columns);
+
 }  // namespace eigentrail

@@ -134,9 +134,7 @@ Matrix transposed_product(const Matrix& A, const Matrix& B) {
 }
 
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A) {
-  for (const Matrix& coefficient : A) {
-    if (!has_few_entries(coefficient)) return std::nullopt;
-  }
+  if (!std::all_of(A.begin(), A.end(), has_few_entries)) return std::nullopt;
   SparseSeries sparse;
   for (const Matrix& coefficient : A) sparse.emplace_back(coefficient.sparseView());
   return sparse;
@@ -166,61 +164,79 @@ MatrixSeries transposed_product(const MatrixSeries& A, const MatrixSeries& B, st
 
 namespace {
 
-/// Adds the product of a number and a series, shifted by `first` coefficients, as far as there is room for
-/// it.
-void add_shifted(double factor, const double* series, std::size_t size, std::size_t first, double* sum,
-                 std::size_t room) {
-  for (std::size_t k = first; k < room && k - first < size; ++k) sum[k] += factor * series[k - first];
+/// Adds a multiple of the first entries of a vector.
+void add_scaled(double factor, const double* vector, Eigen::Index size, double* sum) {
+  Eigen::Map<Vector>(sum, size) += factor * Eigen::Map<const Vector>(vector, size);
 }
 
 }  // namespace
 
-// Column by column; the coefficients of a column lie together.
-MatrixSeries SparseCongruence::operator()(const SystemSeries& B, std::size_t count) const {
-  const std::size_t products = std::min(count, B.size() + right_.size() - 1);
-  MatrixSeries result(std::min(count, products + left_.size() - 1),
-                      Matrix::Zero(left_[0].cols(), right_[0].cols()));
-  // Of B(h) right(h), and the rows that are not zero; of the result.
-  Matrix column = Matrix::Zero(static_cast<Eigen::Index>(products), B[0].rows());
-  std::vector<Eigen::Index> filled;
-  std::vector<char> is_filled(static_cast<std::size_t>(column.cols()));
-  Matrix sum(static_cast<Eigen::Index>(result.size()), left_[0].cols());
-  for (Eigen::Index c = 0; c < right_[0].cols(); ++c) {
-    for (std::size_t j = 0; j < right_.size(); ++j) {
-      for (SparseMatrix::InnerIterator r(right_[j], c); r; ++r) {
-        for (std::size_t i = 0; i < B.size() && i + j < products; ++i) {
-          B[i].for_each_in_column(r.row(), [&](Eigen::Index row, double entry) {
-            column(static_cast<Eigen::Index>(i + j), row) += entry * r.value();
-            if (!std::exchange(is_filled[static_cast<std::size_t>(row)], true)) filled.push_back(row);
-          });
-        }
+SparseCongruence::Blocks::Blocks(const MatrixSeries& A)
+    : coefficients(A.size()),
+      columns(A[0].cols()),
+      blocks(diagonal_blocks(A)),
+      block_of(static_cast<std::size_t>(A[0].rows())) {
+  std::size_t width = 0;
+  for (const DiagonalBlock& block : blocks) width = std::max(width, block.columns.size());
+  values.setZero(static_cast<Eigen::Index>(width * A.size()), A[0].rows());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (const Eigen::Index row : blocks[b].rows) {
+      block_of[static_cast<std::size_t>(row)] = b;
+      double* value = values.col(row).data();
+      for (const Matrix& coefficient : A) {
+        for (const Eigen::Index column : blocks[b].columns) *value++ = coefficient(row, column);
       }
     }
-    std::sort(filled.begin(), filled.end());
-    sum.setZero();
-    for (const Eigen::Index row : filled) {
-      for (std::size_t i = 0; i < left_.size(); ++i) {
-        for (decltype(left_)::value_type::InnerIterator l(left_[i], row); l; ++l)
-          add_shifted(l.value(), column.col(row).data(), products, i, sum.col(l.col()).data(), result.size());
+  }
+}
+
+// Block by block of the columns of right(h); its columns and all coefficients lie together.
+MatrixSeries SparseCongruence::operator()(const SystemSeries& B, std::size_t count) const {
+  const std::size_t products = std::min(count, B.size() + right_.coefficients - 1);
+  MatrixSeries result(std::min(count, products + left_.coefficients - 1),
+                      Matrix::Zero(left_.columns, right_.columns));
+  const auto width = right_.values.rows() / static_cast<Eigen::Index>(right_.coefficients);
+  Matrix columns = Matrix::Zero(width * static_cast<Eigen::Index>(products), B[0].rows());  // B(h) right(h)
+  Matrix sums(width * std::ssize(result), left_.columns);
+  std::vector<Eigen::Index> filled;  // rows of B(h) right(h) that are not zero
+  std::vector<char> is_filled(static_cast<std::size_t>(B[0].rows()));
+  for (const DiagonalBlock& block : right_.blocks) {
+    const auto length = [&](std::size_t coefficients) {
+      return static_cast<Eigen::Index>(coefficients * block.columns.size());
+    };
+    for (const Eigen::Index q : block.rows) {
+      for (std::size_t i = 0; i < B.size() && i < products; ++i) {
+        const Eigen::Index size = length(std::min(right_.coefficients, products - i));
+        B[i].for_each_in_column(q, [&](Eigen::Index row, double entry) {
+          add_scaled(entry, right_.values.col(q).data(), size, columns.col(row).data() + length(i));
+          if (!std::exchange(is_filled[static_cast<std::size_t>(row)], true)) filled.push_back(row);
+        });
       }
-      column.col(row).setZero();
+    }
+    sums.setZero();
+    for (const Eigen::Index row : filled) {
+      const auto& to = left_.blocks[left_.block_of[static_cast<std::size_t>(row)]].columns;
+      const double* value = left_.values.col(row).data();
+      for (std::size_t i = 0; i < left_.coefficients; ++i) {
+        const Eigen::Index size = i < result.size() ? length(std::min(products, result.size() - i)) : 0;
+        for (const Eigen::Index column : to)
+          add_scaled(*value++, columns.col(row).data(), size, sums.col(column).data() + length(i));
+      }
+      columns.col(row).setZero();
       is_filled[static_cast<std::size_t>(row)] = false;
     }
     filled.clear();
-    for (std::size_t k = 0; k < result.size(); ++k) result[k].col(c) = sum.row(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k](Eigen::all, block.columns) = sums.middleRows(length(k), length(1)).transpose();
   }
   return result;
 }
 
 std::optional<SparseCongruence> SparseCongruence::of(const MatrixSeries& left, const MatrixSeries& right) {
-  const auto sparse_left = mostly_zero(left);
-  if (!sparse_left) return std::nullopt;
-  SparseCongruence result;
-  result.left_.assign(sparse_left->begin(), sparse_left->end());
-  auto sparse_right = &left == &right ? sparse_left : mostly_zero(right);
-  if (!sparse_right) return std::nullopt;
-  result.right_ = *std::move(sparse_right);
-  return result;
+  if (!std::all_of(left.begin(), left.end(), has_few_entries) ||
+      !std::all_of(right.begin(), right.end(), has_few_entries))
+    return std::nullopt;
+  return SparseCongruence(left, right);
 }
 
 ComplexMatrix product(const Matrix& A, const ComplexMatrix& X) {

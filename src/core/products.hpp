@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/diagonal_blocks.hpp"
 #include "eigentrail/core/system_matrix.hpp"
 
 namespace eigentrail {
@@ -38,8 +39,20 @@ class SparseCongruence {
   MatrixSeries operator()(const SystemSeries& B, std::size_t count) const;
 
  private:
-  std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> left_;
-  SparseSeries right_;
+  /// A series with entries in diagonal blocks only.
+  struct Blocks {
+    explicit Blocks(const MatrixSeries& A);
+
+    std::size_t coefficients;
+    Eigen::Index columns;
+    std::vector<DiagonalBlock> blocks;
+    std::vector<std::size_t> block_of;  ///< of each row; 0 of one that is zero
+    Matrix values;  ///< of each row in a column: all coefficients in the columns of its block
+  };
+
+  SparseCongruence(const MatrixSeries& left, const MatrixSeries& right) : left_(left), right_(right) {}
+
+  Blocks left_, right_;
 };
 
 /// The first `count` coefficients of A(h) B(h) and of A(h)^T B(h). Zeros of the factor that is given second

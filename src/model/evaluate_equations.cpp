@@ -16,11 +16,10 @@ struct Probe {
 };
 
 /// Calls add(k, value) for the coefficients of a result.
-int for_each_coefficient(const auto& evaluation, int slot, int lane, int order, auto add) {
+void for_each_coefficient(const auto& evaluation, int slot, int lane, int order, auto add) {
   const auto* const series = evaluation.series(slot);
   const int top = evaluation.varies(slot) ? order : 0;
   for (int k = 0; k <= top; ++k) add(k, series[k][lane]);
-  return top;
 }
 
 /// The matrix whose entries are a row of `sums`. Of a sparse one only those that are not zero are kept.
@@ -31,16 +30,19 @@ BasicSystemMatrix<Real> matrix_of(const Pattern& pattern, const typename BasicPa
   using Sparse = typename BasicSystemMatrix<Real>::Sparse;
   if (!pattern.is_sparse()) return Dense(sums.row(k).reshaped(pattern.rows, pattern.columns));
   Sparse kept(pattern.rows, pattern.columns);
-  kept.reserve(static_cast<Eigen::Index>(pattern.size()));
+  kept.resizeNonZeros(static_cast<Eigen::Index>(pattern.size()));
+  int size = 0;
   for (int j = 0; j < pattern.columns; ++j) {
-    kept.startVec(j);
+    kept.outerIndexPtr()[j] = size;
     const auto column = static_cast<std::size_t>(j);
     for (int i = pattern.first[column]; i < pattern.first[column + 1]; ++i) {
-      const Real& entry = sums(k, i);
-      if (entry != Real(0.0)) kept.insertBack(pattern.row[static_cast<std::size_t>(i)], j) = entry;
+      kept.innerIndexPtr()[size] = pattern.row[static_cast<std::size_t>(i)];
+      kept.valuePtr()[size] = sums(k, i);
+      if (sums(k, i) != Real(0.0)) ++size;
     }
   }
-  kept.finalize();
+  kept.outerIndexPtr()[pattern.columns] = size;
+  kept.resizeNonZeros(size);
   return kept;
 }
 
@@ -77,6 +79,14 @@ class EquationRun {
     for (const Batch& batch : equations_.batches) {
       for_each_element(batch, batch.derivatives, [&](const auto& evaluation, std::size_t element, int lane) {
         add_entries(batch, evaluation, element, lane);
+      });
+    }
+    const bool is_finite =
+        std::all_of(work_.sums.begin(), work_.sums.end(), [](const auto& sums) { return sums.allFinite(); });
+    for (std::size_t i = 0; !is_finite && i < equations_.batches.size(); ++i) {
+      const Batch& batch = equations_.batches[i];
+      for_each_element(batch, batch.derivatives, [&](const auto& evaluation, std::size_t element, int lane) {
+        look_for_fault(batch, evaluation, element, lane);
       });
     }
     const std::array matrices = {&result.M, &result.C, &result.K, &result.A};
@@ -167,21 +177,24 @@ class EquationRun {
   }
 
   void add_entries(const Batch& batch, const auto& evaluation, std::size_t element, int lane) {
-    Probe<Real> probe;
     const std::vector<Entry>& entries = batch.derivatives.entries;
     const int* position = batch.positions.data() + element * entries.size();
     for (const Entry& entry : entries) {
       const auto target = static_cast<std::size_t>(entry.target);
-      auto& sum = work_.sums[target];
-      const bool of_force = entry.target != Target::constraints;
-      const int at = *position++;
-      const int top =
-          for_each_coefficient(evaluation, entry.slot, lane, values_.order, [&](int k, const Real& value) {
-            sum(k, at) += of_force ? -value : value;
-            probe.add(value);
-          });
+      const Real sign(entry.target != Target::constraints ? -1.0 : 1.0);
+      const auto* const series = evaluation.series(entry.slot);
+      const int top = evaluation.varies(entry.slot) ? values_.order : 0;
+      Real* const sum = work_.sums[target].col(*position++).data();
+      for (int k = 0; k <= top; ++k) sum[k] += sign * series[k][lane];
       tops_[target] = std::max(tops_[target], top);
     }
+  }
+
+  void look_for_fault(const Batch& batch, const auto& evaluation, std::size_t element, int lane) {
+    Probe<Real> probe;
+    for (const Entry& entry : batch.derivatives.entries)
+      for_each_coefficient(evaluation, entry.slot, lane, values_.order,
+                           [&](int, const Real& value) { probe.add(value); });
     if (!probe.is_finite()) first_fault_ = std::min(first_fault_, batch.labels[element]);
   }
 

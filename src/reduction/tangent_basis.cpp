@@ -101,13 +101,36 @@ void randomize_basis(TangentBasis& basis, std::uint64_t seed) {
 
 namespace {
 
+/// The columns of a basis that constraints do not couple, as those of different bodies.
+std::vector<DiagonalBlock> independent_columns(const Matrix& T, const SystemSeries& A) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add_row = [&](const SystemMatrix& coefficient, Eigen::Index i) {
+    coefficient.for_each_in_column(
+        i, [&](Eigen::Index k, double) { entries.emplace_back(i, T.cols() + k, 1.0); });
+  };
+  for (Eigen::Index i = 0; i < T.rows(); ++i) {
+    for (Eigen::Index j = 0; j < T.cols(); ++j)
+      if (T(i, j) != 0.0) entries.emplace_back(i, j, 1.0);
+    for (const SystemMatrix& coefficient : A) add_row(coefficient, i);
+  }
+  SparseMatrix pattern(T.rows(), T.cols() + A[0].rows());
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  std::vector<DiagonalBlock> blocks = diagonal_blocks(pattern);
+  for (DiagonalBlock& block : blocks)
+    std::erase_if(block.columns, [&](Eigen::Index j) { return j >= T.cols(); });
+  return blocks;
+}
+
 /// Continues B_0, whose columns are tangent, to B_0 + B_1 h + ... with A(h) B(h) = 0.
 void continue_within(const ConstraintFactorization& constraints, const SystemSeries& A, int order,
                      MatrixSeries& B) {
+  const std::vector<DiagonalBlock> blocks = independent_columns(B[0], A);
+  MatrixSeries together{packed(B[0], blocks)};
   for (int k = 1; k <= order; ++k) {
-    Matrix sum = Matrix::Zero(A[0].rows(), B[0].cols());
-    for (int j = 1; j <= k && j < static_cast<int>(A.size()); ++j) A[j].add_product_to(sum, B[k - j]);
-    B.push_back(-constraints.pseudo_inverse_times(sum));
+    Matrix sum = Matrix::Zero(A[0].rows(), together[0].cols());
+    for (int j = 1; j <= k && j < static_cast<int>(A.size()); ++j) A[j].add_product_to(sum, together[k - j]);
+    together.push_back(-constraints.pseudo_inverse_times(sum));
+    B.push_back(unpacked(together.back(), blocks, B[0].cols()));
   }
 }
 

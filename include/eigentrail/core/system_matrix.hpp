@@ -22,10 +22,23 @@ class BasicSystemMatrix {
   using Sparse = Eigen::SparseMatrix<Real>;  ///< compressed column storage
 
   BasicSystemMatrix() = default;
-  BasicSystemMatrix(Dense values) : values_(std::move(values)) {}   // NOLINT: a dense matrix is one
-  BasicSystemMatrix(Sparse values) : values_(std::move(values)) {}  // NOLINT: and so is a sparse one
+  BasicSystemMatrix(Dense values) : values_(std::move(values)) {}  // NOLINT: a dense matrix is one
+  BasicSystemMatrix(const Sparse& values) : values_(values) {}     // NOLINT: and so is a sparse one
+  BasicSystemMatrix(Sparse&& values) { take(values); }             // NOLINT: likewise
   template <class Derived>
   BasicSystemMatrix(const Eigen::MatrixBase<Derived>& values) : values_(Dense(values)) {}  // NOLINT: likewise
+
+  BasicSystemMatrix(const BasicSystemMatrix&) = default;
+  BasicSystemMatrix& operator=(const BasicSystemMatrix&) = default;
+  BasicSystemMatrix(BasicSystemMatrix&& other) noexcept { *this = std::move(other); }
+  BasicSystemMatrix& operator=(BasicSystemMatrix&& other) noexcept {
+    if (auto* sparse = std::get_if<Sparse>(&other.values_))
+      take(*sparse);
+    else
+      values_ = std::move(other.values_);
+    return *this;
+  }
+  ~BasicSystemMatrix() = default;
 
   bool is_sparse() const { return std::holds_alternative<Sparse>(values_); }
   const Sparse& sparse() const { return std::get<Sparse>(values_); }  ///< throws std::bad_variant_access
@@ -121,6 +134,12 @@ class BasicSystemMatrix {
   }
 
  private:
+  /// Eigen copies sparse matrices that it could move.
+  void take(Sparse& values) {
+    if (!is_sparse()) values_.template emplace<Sparse>();
+    std::get<Sparse>(values_).swap(values);
+  }
+
   std::variant<Dense, Sparse> values_;
 };
 
