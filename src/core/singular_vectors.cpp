@@ -12,14 +12,13 @@ namespace {
 /// `svd(m, n, A, result)` computes the values, U and V^H and returns LAPACK's outcome. All matrices have an
 /// empty column behind their own.
 template <class Values, class Svd>
-SingularVectors<Values> decompose(Values A, bool with_left, const Svd& svd) {
+SingularVectors<Values> decompose(Values A, const Svd& svd) {
   const auto m = static_cast<lapack_int>(A.rows());
   const auto n = static_cast<lapack_int>(A.cols());
   const lapack_int count = std::min(m, n);
   // zgemv of OpenBLAS 0.3.21 for AVX2 and AVX-512 reads up to a column past the end of a matrix, and crashes
   // where no memory follows. So every matrix has one more.
-  SingularVectors<Values> result{Vector::Zero(count), {}, Values::Identity(n, n + 1)};
-  if (with_left) result.U = Values::Identity(m, m + 1);
+  SingularVectors<Values> result{Vector::Zero(count), Values::Identity(m, m + 1), Values::Identity(n, n + 1)};
   const auto without_the_last = [](Values& B, lapack_int size) { B = Values(B.leftCols(size)); };
   if (count > 0) {
     A.conservativeResize(Eigen::NoChange, n + 1);
@@ -27,7 +26,7 @@ SingularVectors<Values> decompose(Values A, bool with_left, const Svd& svd) {
   }
   const lapack_int info = count > 0 ? svd(m, n, A, result) : 0;
   without_the_last(result.V, n);
-  if (with_left) without_the_last(result.U, m);
+  without_the_last(result.U, m);
   result.V.adjointInPlace();
   if (info == 0) return result;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -37,39 +36,50 @@ SingularVectors<Values> decompose(Values A, bool with_left, const Svd& svd) {
   return result;
 }
 
-/// By QR iteration. `gesvd`: LAPACK's function for the type of the matrix.
-template <class Values, class Gesvd>
-SingularVectors<Values> by_iteration(Values A, bool with_left, Gesvd&& gesvd) {
-  return decompose(std::move(A), with_left,
+/// By divide and conquer, in half the time of QR iteration or less. `gesdd`: LAPACK's function for the type
+/// of the matrix.
+template <class Values, class Gesdd>
+SingularVectors<Values> by_division(Values A, const Gesdd& gesdd) {
+  return decompose(std::move(A),
                    [&](lapack_int m, lapack_int n, Values& matrix, SingularVectors<Values>& result) {
-                     Vector unconverged(result.values.size());
-                     return gesvd(LAPACK_COL_MAJOR, with_left ? 'A' : 'N', 'A', m, n, matrix.data(), m,
-                                  result.values.data(), result.U.data(), with_left ? m : 1, result.V.data(),
-                                  n, unconverged.data());
+                     return gesdd(LAPACK_COL_MAJOR, 'A', m, n, matrix.data(), m, result.values.data(),
+                                  result.U.data(), m, result.V.data(), n);
                    });
+}
+
+/// Without U that of the triangular factor is enough.
+template <class Values, class Gesdd, class Geqrf>
+SingularVectors<Values> of_triangular_factor(Values A, const Gesdd& gesdd, const Geqrf& geqrf) {
+  const auto m = static_cast<lapack_int>(A.rows());
+  const auto n = static_cast<lapack_int>(A.cols());
+  if (m > n && n > 0) {
+    A.conservativeResize(Eigen::NoChange, n + 1);  // as above
+    A.col(n).setZero();
+    Eigen::Vector<typename Values::Scalar, Eigen::Dynamic> factors(n);
+    geqrf(LAPACK_COL_MAJOR, m, n, A.data(), m, factors.data());
+    A = Values(A.topLeftCorner(n, n).template triangularView<Eigen::Upper>());
+  }
+  SingularVectors<Values> result = by_division(std::move(A), gesdd);
+  result.U.resize(0, 0);
+  return result;
 }
 
 }  // namespace
 
-/// Divide and conquer, in half the time.
 SingularVectors<Matrix> singular_vectors(Matrix A) {
-  return decompose(std::move(A), true,
-                   [](lapack_int m, lapack_int n, Matrix& matrix, SingularVectors<Matrix>& result) {
-                     return LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'A', m, n, matrix.data(), m,
-                                           result.values.data(), result.U.data(), m, result.V.data(), n);
-                   });
+  return by_division(std::move(A), LAPACKE_dgesdd);
 }
 
 SingularVectors<ComplexMatrix> singular_vectors(ComplexMatrix A) {
-  return by_iteration(std::move(A), true, LAPACKE_zgesvd);
+  return by_division(std::move(A), LAPACKE_zgesdd);
 }
 
 SingularVectors<Matrix> right_singular_vectors(Matrix A) {
-  return by_iteration(std::move(A), false, LAPACKE_dgesvd);
+  return of_triangular_factor(std::move(A), LAPACKE_dgesdd, LAPACKE_dgeqrf);
 }
 
 SingularVectors<ComplexMatrix> right_singular_vectors(ComplexMatrix A) {
-  return by_iteration(std::move(A), false, LAPACKE_zgesvd);
+  return of_triangular_factor(std::move(A), LAPACKE_zgesdd, LAPACKE_zgeqrf);
 }
 
 }  // namespace eigentrail

@@ -138,6 +138,7 @@ std::optional<Values> random_commuting(const Values& H, const Groups& spaces, Se
         const Eigen::Index mb = sizes[b];
         if (ma == 1 && mb == 1) continue;
         const Values Hab = block(members[a], members[b]);
+        if (Hab.norm() <= search.zero() * size) continue;
         for (Eigen::Index c = 0; c < mb; ++c) {
           for (Eigen::Index r = 0; r < ma; ++r, ++at) {
             for (Eigen::Index k = 0; k < ma; ++k) equations(at, first[a] + r + k * ma) += Hab(k, c);
@@ -146,7 +147,7 @@ std::optional<Values> random_commuting(const Values& H, const Groups& spaces, Se
         }
       }
     }
-    const auto right = right_singular_vectors(std::move(equations));
+    const auto right = right_singular_vectors(Values(equations.topRows(at)));
     if (!right.values.allFinite()) return std::nullopt;
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>::Zero(unknowns);
     for (Eigen::Index k = 0; k < unknowns; ++k) {
