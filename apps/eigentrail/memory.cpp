@@ -55,9 +55,9 @@ __attribute__((section(".preinit_array"), used)) auto* const first = &begin_with
 
 #ifdef __GLIBC__
 /// Memory of temporaries is kept for the next ones. By default glibc gives blocks of 128 KiB and more, and
-/// all at the end of the heap, back to the system at once, and takes little by little, in pages of 4 KiB; the
-/// page faults were two fifths of the time of rotors and wings. Without a limit of memory the heap begins
-/// with room for a large model, in huge pages where the system has them.
+/// all at the end of the heap, back to the system at once, and takes memory little by little, in pages of 4
+/// KiB; page faults were up to a third of the time of rotors and wings. Without a limit of memory the heap
+/// begins with room for a large model, in huge pages where the system has them.
 bool keep_memory_of_temporaries() {
   constexpr int largest_block = 1 << 25;  // glibc takes no larger one
   constexpr int kept = 1 << 28;

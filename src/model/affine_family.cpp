@@ -137,6 +137,28 @@ void add_samples(PencilSamples& samples, const AffineTerm<Matrix>& term) {
   for (std::size_t i = 0; i < values.size(); ++i) samples.samples[i] += values[i] * term.matrix;
 }
 
+/// Of tables whose errors are not known.
+class UnknownErrors final : public SampleErrors {
+ public:
+  int parameter() const override { return no_parameter; }
+  const std::vector<double>& values() const override { return no_values_; }
+  SampleBounds between(std::size_t, std::span<const EigenTriple>) const override { return {}; }
+  double shape(double) const override { return 0.0; }
+  double place_of_largest_error(std::size_t, double from, double) const override { return from; }
+
+ private:
+  std::vector<double> no_values_;
+};
+
+template <class Storage>
+bool interpolates(const AffinePencil<Storage>& pencil) {
+  const auto has_table = [](const AffineTerm<Storage>& term) {
+    return term.table && !term.table->is_exact();
+  };
+  return std::ranges::any_of(pencil.M, has_table) || std::ranges::any_of(pencil.C, has_table) ||
+         std::ranges::any_of(pencil.K, has_table);
+}
+
 /// The errors of all tables of a family together; null if there are none, or if the argument of a table is
 /// not a linear function of one parameter, the same for all. The bounds of the tables add up.
 std::unique_ptr<const SampleErrors> table_errors(const AffinePencil<Matrix>& pencil, Eigen::Index n) {
@@ -175,6 +197,7 @@ AffineFamily<Storage>::AffineFamily(ModelDescription description, AffinePencil<S
       }()),
       pencil_(std::move(pencil)) {
   if constexpr (std::is_same_v<Storage, Matrix>) errors_ = table_errors(pencil_, n_coordinates());
+  if (!errors_ && interpolates(pencil_)) errors_ = std::make_shared<UnknownErrors>();
 }
 
 template <class Storage>

@@ -68,6 +68,16 @@ TEST(DiagonalBlocks, HaveNullSpacesOfTheirOwn) {
   EXPECT_EQ(diagonal_blocks(sparse(Q)).size(), 20U);
 }
 
+TEST(DiagonalBlocks, ArePackedIntoTheColumnsOfTheLargest) {
+  const Matrix A = random_blocks(20).transpose();
+  const auto blocks = diagonal_blocks(MatrixSeries{A});
+  const Matrix P = packed(A, blocks);
+  EXPECT_EQ(P.cols(), A.cols() / 20);
+  EXPECT_EQ(unpacked(P, blocks, A.cols()), A);
+  const Matrix all = Matrix::Random(6, 3);  // one block
+  EXPECT_EQ(packed(all, diagonal_blocks(MatrixSeries{all})), all);
+}
+
 TEST(SparseProducts, AreTheDenseOnes) {
   MatrixSeries T, dense;
   for (int k = 0; k < 3; ++k) {

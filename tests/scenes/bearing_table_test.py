@@ -143,12 +143,18 @@ class BearingTable(RotorTest):
                          r"bearing 1 +at node 1, node 7; table of 8 rows, speed = 0 to 9e\+03 rpm, .*left out is missed by")
         self.assertRegex(self.run_well("trace", "scene.toml"), r"data +relative error of eigenvalues between samples up to \S+ ")
 
-    def test_another_parameter_has_no_errors_between_rows(self):
-        """Traced over a stiffness, the table is read at one speed."""
+    def test_errors_that_are_not_known_are_said(self):
+        """Traced over a mass, the table is read at one speed; over the square of the speed, its rows are no places of the path."""
         self.write("bearing.csv", table(8))
+        self.write("scene.toml", with_table('\nover = "speed * (1 - 1e-6 * speed)"'))
+        self.assertIn("the error of that is not known: it is stated where what all", self.run_well("trace", "scene.toml"))
+        self.assertNotIn("not known", self.run_well("trace", "scene.toml", "--force", "--without", "bearing"))
+        self.write("scene.toml", with_table())
+        self.assertNotIn("not known", self.run_well("trace", "scene.toml", "--force"))
         self.write("scene.toml", with_table('\nmxx = "m"', 'm = { value = 1, unit = "kg" }'))
-        summary = self.run_well("trace", "scene.toml", "--parameter", "m", "--from", "0", "--to", "2")
+        summary = self.run_well("trace", "scene.toml", "--force", "--parameter", "m", "--from", "0", "--to", "2")
         self.assertNotIn("between samples", summary)
+        self.assertIn("the error of that is not known: it is stated where 'speed' is traced", summary)
         self.assertRegex(summary, r"1 +\S+ +\S+ % +\S+ +\S+ % +1st backward bending")
 
     def test_verify_finds_the_table_beside_the_scene(self):

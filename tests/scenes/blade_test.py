@@ -109,6 +109,8 @@ class Nrel5MW(BladeTest):
             self.assertGreater(len(s), 10 * elements)
             self.assertLess(np.max(s.real / np.abs(s)), 1e-9, elements)
         self.assertIn("stable  rotor_speed = 0 -> 14", self.run_well("trace", "beam.toml", "-o", "blade.h5"))
+        # Energy tells it without spectra behind the start, although extension has gyroscopic forces and no damping.
+        self.assertEqual(self.open("blade.h5").attrs["count_spectra"], 1)
 
     def test_beam_without_shear_and_inertia_of_the_sections(self):
         """The program's blade made slender and stiff in torsion: extension, shear, torsion and the inertia of the sections

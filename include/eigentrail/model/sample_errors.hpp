@@ -81,7 +81,9 @@ class SampleErrors {
   SampleErrors(const SampleErrors&) = delete;
   SampleErrors& operator=(const SampleErrors&) = delete;
 
-  /// Index of the parameter; while another one is traced, nothing is known.
+  static constexpr int no_parameter = -1;
+
+  /// Index of the parameter, or no_parameter; while another one is traced, nothing is known.
   virtual int parameter() const = 0;
 
   /// Values of the samples, ascending, in the SI unit of the parameter.

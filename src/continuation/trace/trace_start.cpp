@@ -9,6 +9,7 @@
 #include "continuation/tracks/starting_tracks.hpp"
 #include "eigentrail/continuation/route_choice.hpp"
 #include "eigentrail/continuation/scene_parts.hpp"
+#include "eigentrail/model/sample_errors.hpp"
 #include "eigentrail/modes/invariants.hpp"
 #include "eigentrail/modes/regroup.hpp"
 
@@ -81,6 +82,7 @@ class Start {
   Failure find_modes();
   Failure check_spectrum(const Spectrum& spectrum) const;
   void list_permanent_zeros(const Spectrum& spectrum);
+  void note_unknown_errors();
   int structural_infinities() const;
   void settle_magnitudes(const Spectrum& spectrum);
   void lower_reference();
@@ -189,6 +191,7 @@ std::optional<StartFailure> Start::find_modes() {
   result_.n_columns = state_.numbers.count = result_.n_modes;
   state_.copies = starting_copies(spectrum.modes, result_.n_modes);
   list_permanent_zeros(spectrum);
+  note_unknown_errors();
   TraceSettings& settings = state_.settings;
   settings.follows_all = result_.n_modes == result_.n_available;
   settings.leaves_out = std::any_of(spectrum.modes.begin() + result_.n_modes, spectrum.modes.end(),
@@ -233,6 +236,20 @@ void Start::list_permanent_zeros(const Spectrum& spectrum) {
   result_.notes.push_back(std::to_string(count) + (count == 1 ? " eigenvalue is" : " eigenvalues are") +
                           " zero for every " + options_.parameter + " (rigid-body motions, integrators: " +
                           motions + ") and not among the modes chosen");
+}
+
+/// A note where the data of the model are interpolated, with an error that is not known along the path.
+void Start::note_unknown_errors() {
+  const SampleErrors* errors = problem_.model.sample_errors();
+  if (errors == nullptr || errors->parameter() == problem_.traced) return;
+  const bool none = errors->parameter() == SampleErrors::no_parameter;
+  result_.notes.push_back(
+      "tables or samples are interpolated, and the error of that is not known: it is stated where " +
+      (none ? std::string("what all of them are over is a linear function of the traced parameter")
+            : "'" +
+                  problem_.model.description()
+                      .parameters.names()[static_cast<std::size_t>(errors->parameter())] +
+                  "' is traced"));
 }
 
 /// Number of infinite eigenvalues that the form with velocities has for every value of the parameter:
