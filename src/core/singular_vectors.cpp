@@ -56,8 +56,9 @@ SingularVectors<Values> of_triangular_factor(Values A, const Gesdd& gesdd, const
     A.conservativeResize(Eigen::NoChange, n + 1);  // as above
     A.col(n).setZero();
     Eigen::Vector<typename Values::Scalar, Eigen::Dynamic> factors(n);
-    geqrf(LAPACK_COL_MAJOR, m, n, A.data(), m, factors.data());
+    const lapack_int info = geqrf(LAPACK_COL_MAJOR, m, n, A.data(), m, factors.data());
     A = Values(A.topLeftCorner(n, n).template triangularView<Eigen::Upper>());
+    if (info != 0) A.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   SingularVectors<Values> result = by_division(std::move(A), gesdd);
   result.U.resize(0, 0);

@@ -49,6 +49,9 @@ TEST(SingularVectors, AreNotANumberWhereTheMatrixIsNot) {
   A(1, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(singular_vectors(A).values[0]));
   EXPECT_TRUE(std::isnan(right_singular_vectors(A).V(0, 0)));
+  ComplexMatrix tall = ComplexMatrix::Identity(5, 2);
+  tall(4, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(right_singular_vectors(tall).values[0]));
 }
 
 }  // namespace
