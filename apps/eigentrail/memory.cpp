@@ -32,14 +32,18 @@ void end_without_memory(std::size_t size) {
 namespace eigentrail::app {
 namespace {
 
+bool has_limited_memory() {
+  rlimit memory{};
+  return getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY;
+}
+
 /// OpenBLAS starts threads when it is loaded, as many as there are cores, and ends the process by a signal
 /// where they get no memory. Under a limit of memory the program therefore begins once more without them; it
 /// has threads of its own.
 void begin_without_threads_of_blas(int /*argc*/, char** argv, char** environment) {
   constexpr const char* variable = "OPENBLAS_NUM_THREADS=1";
   constexpr std::size_t name = 21, most_variables = 4096;
-  rlimit memory{};
-  if (getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return;
+  if (!has_limited_memory()) return;
   std::array<char*, most_variables> variables{};
   std::size_t count = 0;
   for (; environment[count] != nullptr; ++count) {
@@ -63,8 +67,7 @@ bool keep_memory_of_temporaries() {
   constexpr int kept = 1 << 28;
   constexpr std::uintptr_t huge_page = 1 << 21;
   if (mallopt(M_MMAP_THRESHOLD, largest_block) == 0 || mallopt(M_TRIM_THRESHOLD, kept) == 0) return false;
-  rlimit memory{};
-  if (getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur != RLIM_INFINITY) return false;
+  if (has_limited_memory()) return false;
   const auto begin = reinterpret_cast<std::uintptr_t>(sbrk(0)) / huge_page * huge_page + huge_page;
   mallopt(M_TOP_PAD, kept);
   void* volatile first_block = std::malloc(huge_page);  // else the compiler leaves both calls out

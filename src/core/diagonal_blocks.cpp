@@ -69,10 +69,14 @@ std::vector<DiagonalBlock> diagonal_blocks(const MatrixSeries& all) {
   return diagonal_blocks(SparseMatrix(magnitudes.sparseView()));
 }
 
+Eigen::Index largest_width(const std::vector<DiagonalBlock>& blocks) {
+  Eigen::Index width = 0;
+  for (const DiagonalBlock& block : blocks) width = std::max<Eigen::Index>(width, std::ssize(block.columns));
+  return width;
+}
+
 Matrix packed(const Matrix& A, const std::vector<DiagonalBlock>& blocks) {
-  std::size_t width = 0;
-  for (const DiagonalBlock& block : blocks) width = std::max(width, block.columns.size());
-  Matrix P = Matrix::Zero(A.rows(), static_cast<Eigen::Index>(width));
+  Matrix P = Matrix::Zero(A.rows(), largest_width(blocks));
   for (const DiagonalBlock& block : blocks)
     P(block.rows, Eigen::seqN(0, block.columns.size())) = A(block.rows, block.columns);
   return P;

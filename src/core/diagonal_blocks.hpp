@@ -20,6 +20,9 @@ std::vector<DiagonalBlock> diagonal_blocks(const SparseMatrix& A);
 /// The same of the entries that are not zero in some of the matrices, all of one size.
 std::vector<DiagonalBlock> diagonal_blocks(const MatrixSeries& all);
 
+/// The number of columns of the largest block.
+Eigen::Index largest_width(const std::vector<DiagonalBlock>& blocks);
+
 /// The columns of the blocks of a matrix side by side, in as few columns as the largest block has: what acts
 /// on every block by itself acts on all of them at once.
 Matrix packed(const Matrix& A, const std::vector<DiagonalBlock>& blocks);

@@ -133,8 +133,12 @@ Matrix transposed_product(const Matrix& A, const Matrix& B) {
   return full_product(dgemm_, 'T', A, B);
 }
 
+bool is_mostly_zero(const MatrixSeries& A) {
+  return std::all_of(A.begin(), A.end(), has_few_entries);
+}
+
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A) {
-  if (!std::all_of(A.begin(), A.end(), has_few_entries)) return std::nullopt;
+  if (!is_mostly_zero(A)) return std::nullopt;
   SparseSeries sparse;
   for (const Matrix& coefficient : A) sparse.emplace_back(coefficient.sparseView());
   return sparse;
@@ -176,9 +180,7 @@ SparseCongruence::Blocks::Blocks(const MatrixSeries& A)
       columns(A[0].cols()),
       blocks(diagonal_blocks(A)),
       block_of(static_cast<std::size_t>(A[0].rows())) {
-  std::size_t width = 0;
-  for (const DiagonalBlock& block : blocks) width = std::max(width, block.columns.size());
-  values.setZero(static_cast<Eigen::Index>(width * A.size()), A[0].rows());
+  values.setZero(largest_width(blocks) * std::ssize(A), A[0].rows());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const Eigen::Index row : blocks[b].rows) {
       block_of[static_cast<std::size_t>(row)] = b;
@@ -195,7 +197,7 @@ MatrixSeries SparseCongruence::operator()(const SystemSeries& B, std::size_t cou
   const std::size_t products = std::min(count, B.size() + right_.coefficients - 1);
   MatrixSeries result(std::min(count, products + left_.coefficients - 1),
                       Matrix::Zero(left_.columns, right_.columns));
-  const auto width = right_.values.rows() / static_cast<Eigen::Index>(right_.coefficients);
+  const Eigen::Index width = largest_width(right_.blocks);
   Matrix columns = Matrix::Zero(width * static_cast<Eigen::Index>(products), B[0].rows());  // B(h) right(h)
   Matrix sums(width * std::ssize(result), left_.columns);
   std::vector<Eigen::Index> filled;  // rows of B(h) right(h) that are not zero
@@ -233,9 +235,7 @@ MatrixSeries SparseCongruence::operator()(const SystemSeries& B, std::size_t cou
 }
 
 std::optional<SparseCongruence> SparseCongruence::of(const MatrixSeries& left, const MatrixSeries& right) {
-  if (!std::all_of(left.begin(), left.end(), has_few_entries) ||
-      !std::all_of(right.begin(), right.end(), has_few_entries))
-    return std::nullopt;
+  if (!is_mostly_zero(left) || !is_mostly_zero(right)) return std::nullopt;
   return SparseCongruence(left, right);
 }
 

@@ -25,6 +25,9 @@ Matrix magnitudes_of_terms(const Matrix& A, const Matrix& B, const Matrix& C);
 /// Power series with sparse coefficients.
 using SparseSeries = std::vector<SparseMatrix>;
 
+/// Whether most entries of each coefficient are exactly zero.
+bool is_mostly_zero(const MatrixSeries& A);
+
 /// The series with sparse coefficients if most entries of each are exactly zero, as in a tangent basis of
 /// bodies whose constraints fall into blocks; else empty.
 std::optional<SparseSeries> mostly_zero(const MatrixSeries& A);

@@ -71,12 +71,14 @@ class PartProducts {
       if (range.complex_sign < 0) continue;  // has the same matrices
       Columns columns(static_cast<std::size_t>(range.size));
       std::iota(columns.begin(), columns.end(), range.first);
-      const bool few = mostly_zero(columns_of(left_, columns)) && mostly_zero(columns_of(basis.T, columns));
+      const bool few =
+          is_mostly_zero(columns_of(left_, columns)) && is_mostly_zero(columns_of(basis.T, columns));
       (few ? sparse_ : dense_).push_back(columns);
     }
     const Columns together = joined(sparse_);
     if (!sparse_.empty())
       product_ = SparseCongruence::of(columns_of(left_, together), columns_of(basis.T, together));
+    dense_right_ = columns_of(basis.T, joined(dense_));
   }
 
   /// Within a pattern. Where the basis changes along the path, it tells the freedoms that no force holds.
@@ -87,11 +89,9 @@ class PartProducts {
       const Eigen::Index at = part.front(), size = std::ssize(part);
       const bool within = basis_.left.empty() || size == 1;
       for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto block = all[k].block(first, first, size, size);
-        if (within)
-          result[k].block(at, at, size, size) = block.cwiseProduct(pattern.block(at, at, size, size));
-        else
-          result[k].block(at, at, size, size) = block;
+        auto block = result[k].block(at, at, size, size);
+        block = all[k].block(first, first, size, size);
+        if (within) block.array() *= pattern.block(at, at, size, size).array();
       }
     };
     Eigen::Index first = 0;
@@ -101,7 +101,7 @@ class PartProducts {
     }
     if (dense_.empty()) return result;
     const std::size_t count_BT = last_order(order, B.size() + basis_.T.size(), 2) + 1;
-    const MatrixSeries BT = times_basis(B, columns_of(basis_.T, joined(dense_)), count_BT);
+    const MatrixSeries BT = times_basis(B, dense_right_, count_BT);
     first = 0;
     for (const Columns& part : dense_) {
       MatrixSeries own;
@@ -123,6 +123,7 @@ class PartProducts {
   MatrixSeries left_;
   std::vector<Columns> sparse_, dense_;  ///< of each part
   std::optional<SparseCongruence> product_;
+  MatrixSeries dense_right_;
 };
 
 /// The diagonal block of a part.

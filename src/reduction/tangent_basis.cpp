@@ -104,14 +104,12 @@ namespace {
 /// The columns of a basis that constraints do not couple, as those of different bodies.
 std::vector<DiagonalBlock> independent_columns(const Matrix& T, const SystemSeries& A) {
   std::vector<Eigen::Triplet<double>> entries;
-  const auto add_row = [&](const SystemMatrix& coefficient, Eigen::Index i) {
-    coefficient.for_each_in_column(
-        i, [&](Eigen::Index k, double) { entries.emplace_back(i, T.cols() + k, 1.0); });
-  };
   for (Eigen::Index i = 0; i < T.rows(); ++i) {
     for (Eigen::Index j = 0; j < T.cols(); ++j)
       if (T(i, j) != 0.0) entries.emplace_back(i, j, 1.0);
-    for (const SystemMatrix& coefficient : A) add_row(coefficient, i);
+    for (const SystemMatrix& coefficient : A)
+      coefficient.for_each_in_column(
+          i, [&](Eigen::Index k, double) { entries.emplace_back(i, T.cols() + k, 1.0); });
   }
   SparseMatrix pattern(T.rows(), T.cols() + A[0].rows());
   pattern.setFromTriplets(entries.begin(), entries.end());
